@@ -98,8 +98,6 @@ struct Rows {
     Lanes excess(const Point& p, const Softness& s) const {
         return -at(p.p.gap) - at(block.shallow) - all(s.give) * at(p.more.normal_force) / at(p.p.normal_mass);
     }
-    Lanes radius_a() const { return all(0.5) * (at(block.radii) + at(block.uneven)); }
-    Lanes radius_b() const { return all(0.5) * (at(block.radii) - at(block.uneven)); }
     Lanes surface_speed() const { return block.any_belt ? at(block.surface_speed) : Lanes{}; }
     void write_back(Mover* movers) {
         const Lanes2 impulse{given.x * n.x - given.y * n.y, given.x * n.y + given.y * n.x};
@@ -370,11 +368,9 @@ ContactSums settle(ContactBlock* blocks, size_t count, const Mover* means, doubl
                 const Lanes parted = select(r.at(p.p.gap) < zero, undone, zero);
                 const Lanes across = r.speed_across(p);
                 Lanes landed = pressed * (speed_apart - parted);
-                if (r.block.any_corners && &p.p == &r.block.point[0]) {
-                    // The rims of before were beneath their cores as those of now are, and spins move neither along.
-                    const Lanes of_rims = r.a.w * r.radius_a() + r.b.w * r.radius_b();
-                    landed -= r.at(p.more.lag_along) * speed_apart + r.at(p.more.lag_across) * (across + of_rims);
-                }
+                if (r.block.any_corners && &p.p == &r.block.point[0])
+                    landed -= r.at(r.block.lag_along) * r.along + r.at(r.block.lag_across) * r.across +
+                              (r.at(r.block.lag_turn_b) * r.b.w - r.at(r.block.lag_turn_a) * r.a.w);
                 landing.add(r.row, landed);
                 parting.add(r.row, pressed * parted);
                 slip.add(r.row, rubbed * (across - speed));
@@ -408,20 +404,23 @@ HeldSums sum_held(const ContactBlock* blocks, size_t count, const Mover* movers,
                 const Mask at_wall = whole_numbers(r.block.a + r.row) == all(ground);
                 const Lanes4 a = quads(frames, r.block.a + r.row), b = quads(frames, r.block.b + r.row);
                 r.each_point([&](const auto& p) {
-                    const Lanes lag_across = r.block.any_corners ? r.at(p.more.lag_across) : Lanes{};
-                    const Lanes lag_along = r.block.any_corners ? r.at(p.more.lag_along) : Lanes{};
-                    const Lanes pressed = r.at(p.p.normal_impulse) - lag_along;
-                    const Lanes rubbed = r.at(p.p.tangent_impulse) - lag_across;
+                    const Lanes pressed = r.at(p.p.normal_impulse), rubbed = r.at(p.p.tangent_impulse);
                     const Lanes along = select(a_holds, p.on_b.x, p.on_a.x);
                     const Lanes across = select(a_holds, p.on_b.y, p.on_a.y);
                     const Lanes x = select(a_holds, b.x, a.x) + (along * r.n.x - across * r.n.y);
                     const Lanes y = select(a_holds, b.y, a.y) + (along * r.n.y + across * r.n.x);
                     const Lanes sign = select(a_holds, all(1), all(-1));
-                    const Lanes2 impulse{sign * (pressed * r.n.x - rubbed * r.n.y),
-                                         sign * (pressed * r.n.y + rubbed * r.n.x)};
+                    Lanes2 impulse{sign * (pressed * r.n.x - rubbed * r.n.y),
+                                   sign * (pressed * r.n.y + rubbed * r.n.x)};
                     Lanes moment = x * impulse.y - y * impulse.x;
                     if (r.block.any_rolling) moment += sign * r.at(p.more.rolling_impulse);
-                    if (r.block.any_corners) moment += sign * lag_across * select(a_holds, r.radius_a(), -r.radius_b());
+                    if (r.block.any_corners && &p.p == &r.block.point[0]) {
+                        const Lanes of_n = sign * r.at(r.block.lag_along), of_t = sign * r.at(r.block.lag_across);
+                        const Lanes2 lag{of_n * r.n.x - of_t * r.n.y, of_n * r.n.y + of_t * r.n.x};
+                        impulse.x -= lag.x, impulse.y -= lag.y;
+                        moment -= select(a_holds, a.x, b.x) * lag.y - select(a_holds, a.y, b.y) * lag.x +
+                                  sign * select(a_holds, r.at(r.block.lag_turn_a), r.at(r.block.lag_turn_b));
+                    }
                     walls.add(r.row, at_wall, impulse, moment);
                     all_of_them.add(r.row, holds, impulse, moment);
                 });

@@ -55,10 +55,11 @@ struct alignas(64) ContactBlock {
     Numbers corners;       ///< 1 where two rounded corners may touch: they pass one another on a circle
     Numbers bend;          ///< of their gap, for the way of the next substep, where they touch [m]
     Numbers follows;       ///< 1 where the normal turns as they do so, in the midst of each substep
+    /// Of the impulses so far what they and their moments on a and b are more with the normal of now than as given.
+    Numbers lag_along, lag_across, lag_turn_a, lag_turn_b;
     struct More {
-        Numbers lag_along, lag_across;  ///< of its impulses what they are more along the normal of now than as given
-        Numbers open;                   ///< 1 where nothing can touch in this substep
-        Numbers bounce;                 ///< speed [m/s] at which the two are to part, if they press on one another
+        Numbers open;    ///< 1 where nothing can touch in this substep
+        Numbers bounce;  ///< speed [m/s] at which the two are to part, if they press on one another
         Numbers core_a_x, core_a_y, core_b_x, core_b_y;       ///< in the bodies' own frames
         Numbers rolling_impulse;                              ///< so far in this substep
         Numbers normal_force, tangent_force, rolling_moment;  ///< mean ones of the last substep [N], [N m]

@@ -96,12 +96,15 @@ inline void turn_normals(ContactBlock& block, size_t row, const Lanes4& a, const
     const Lanes sine = n.x * m.y - n.y * m.x;
     const Mask turns = follows & (sine * sine > all(hair * hair));
     const Lanes pressed = at(p.normal_impulse), rubbed = at(p.tangent_impulse);
-    const Lanes versine = one - (n.x * m.x + n.y * m.y);
-    const Lanes along = select(turns, versine * pressed - sine * rubbed, zero);
-    const Lanes across = select(turns, sine * pressed + versine * rubbed, zero);
-    __builtin_memcpy(more.lag_along + row, &along, sizeof along);
-    __builtin_memcpy(more.lag_across + row, &across, sizeof across);
-    if (!any(turns)) return;
+    const auto note = [row, turns](double* numbers, Lanes value) {
+        const Lanes now = select(turns, value, Lanes{});
+        __builtin_memcpy(numbers + row, &now, sizeof now);
+    };
+    if (!any(turns)) {
+        note(block.lag_along, zero), note(block.lag_across, zero);
+        note(block.lag_turn_a, zero), note(block.lag_turn_b, zero);
+        return;
+    }
     const Lanes x = b.x - a.x, y = b.y - a.y;
     const Lanes2 between{x * m.x + y * m.y, y * m.x - x * m.y};
     const Lanes2 on_a{c.on_a.x * m.x + c.on_a.y * m.y + all(0.5) * (at(block.uneven) + distance),
@@ -110,6 +113,11 @@ inline void turn_normals(ContactBlock& block, size_t row, const Lanes4& a, const
     const Lanes2 was_on_a{at(p.lever_a_along), at(p.lever_a_across)};
     const Lanes2 was_on_b{was_on_a.x - at(block.between_along), was_on_a.y - at(block.between_across)};
     const Turned turned{m, n, on_a, on_b, was_on_a, was_on_b};
+    const Lanes versine = one - (n.x * m.x + n.y * m.y);
+    note(block.lag_along, versine * pressed - sine * rubbed);
+    note(block.lag_across, sine * pressed + versine * rubbed);
+    note(block.lag_turn_a, rubbed * (on_a.x - was_on_a.x) - pressed * (on_a.y - was_on_a.y));
+    note(block.lag_turn_b, rubbed * (on_b.x - was_on_b.x) - pressed * (on_b.y - was_on_b.y));
     add_more(block, row, turns, turned, pressed, rubbed, half.leads);
     add_more(block, row, turns, turned, all(half.warm) * at(more.normal_force), all(half.warm) * at(more.tangent_force),
              movers);

@@ -54,8 +54,7 @@ inline void write_point(const R& r, const Frame& f, uint32_t i, ContactBlock& bl
     put(more.normal_force, r.number(r.from.at.normal_force + i));
     put(more.tangent_force, r.number(r.from.at.tangent_force + i));
     put(more.rolling_moment, r.number(r.from.at.rolling_moment + i));
-    put(more.turned_normal, zero), put(more.turned_tangent, zero), put(more.lag_along, zero),
-        put(more.lag_across, zero);
+    put(more.turned_normal, zero), put(more.turned_tangent, zero);
     if (block.any_preload) put(more.preload, r.number(r.from.at.preload + i));
 }
 
@@ -81,7 +80,8 @@ inline void write_rows(const R& r, ContactBlock& block) {
     r.put(block.recovery, sizes_recovered * extent.x), r.put(block.shallow, shallow_size * extent.x);
     r.put(block.radii, surface.w + turned.x), r.put(block.uneven, surface.w - turned.x);
     r.put(block.follows, select(r.follows_corner(), zero + 1, zero));
-    r.put(block.bend, zero);
+    r.put(block.bend, zero), r.put(block.lag_along, zero), r.put(block.lag_across, zero);
+    r.put(block.lag_turn_a, zero), r.put(block.lag_turn_b, zero);
     r.put(block.corners, select(r.rounds_a_corner(), zero + 1, zero));
     for (uint32_t i = 0; i < block.points; ++i) write_point(r, f, i, block);
 }

@@ -207,19 +207,16 @@ Vec2 impulse_of(const ContactBlock& block, int point, std::uint32_t k) {
 void book_driven(Substep& s, const SoftContact& c) {
     const ContactBlock& block = s.contacts.layout.blocks[c.block];
     const Mover &a = s.motion.means[c.a], &b = s.motion.means[c.b];
-    const Vec2 n{block.normal_x[c.row], block.normal_y[c.row]};
     const auto work = [&](Vec2 impulse, double turning, Vec2 on_a, Vec2 on_b) {
         const Twist at_a{Vec2{a.vx, a.vy} + cross(a.w, on_a), a.w}, at_b{Vec2{b.vx, b.vy} + cross(b.w, on_b), b.w};
         s.state.account[Account::driven] += work_of_driven(s.scene, c, impulse, turning, at_a, at_b);
     };
     for (int i = 0; i < c.manifold.count; ++i) {
         const Vec2 on_a = lever_a_of(block, i, c.row), on_b = lever_b_of(block, i, c.row);
-        const auto& more = block.more[i];
-        work(impulse_of(block, i, c.row), more.rolling_impulse[c.row], on_a, on_b);
-        const Vec2 lag = more.lag_along[c.row] * n + more.lag_across[c.row] * perpendicular(n);
-        if (lag != Vec2{})  // rims were beneath their cores before, too
-            work(-lag, 0, on_a - c.radius_a * n, on_b + c.radius_b * n);
+        work(impulse_of(block, i, c.row), block.more[i].rolling_impulse[c.row], on_a, on_b);
     }
+    const double turn = is_driven(s.scene, c.a) ? block.lag_turn_a[c.row] : block.lag_turn_b[c.row];
+    work(-in_the_world(block, c.row, block.lag_along[c.row], block.lag_across[c.row]), -turn, {}, {});
 }
 
 void book_held_contacts(Substep& s) {
