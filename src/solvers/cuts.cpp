@@ -207,7 +207,7 @@ class Pull {
 
 double until_strike(const SoftScene& scene, State& state, SoftContacts& contacts, double h) {
     constexpr double at_once = 1e-3, anywhere = 1e300;  // of h
-    constexpr double slow = 1e-3;      // of the pieces' size in a substep: slower ones may come to rest
+    constexpr double slow = 1e-3;      // of the pieces' size in a substep: slower ones may come to rest, or hang
     constexpr double just = 1 - 1e-3;  // before it: at its end the velocities of the flight are not along the joints
     constexpr int most_strikes = 3;    // of more that strike in a substep not each can have a part of it
     // Forces that look at velocities are those of a flight without a bounce: there the strike is alone in its part.
@@ -229,7 +229,7 @@ double until_strike(const SoftScene& scene, State& state, SoftContacts& contacts
             const Vec2 of_a = velocity_at(state, c.a, lever[0]), of_b = velocity_at(state, c.b, lever[1]);
             const double closing = -dot(of_b - of_a, m.normal), gap = m.point[k].gap;
             if (!(closing > 0)) continue;
-            if (closing * h <= slow * c.size && closing <= least_bounce * h * pull(c, m.normal)) continue;
+            if (closing * h <= slow * c.size && (!all || closing <= least_bounce * h * pull(c, m.normal))) continue;
             if (gap <= at_once * h * closing) {
                 first = std::min(first, 2 * at_once * h);
                 continue;
