@@ -32,14 +32,14 @@ std::uint8_t role_of(const SoftScene& scene, const SoftContact& c) {
     return bit(is_driven(scene, c.a) || is_driven(scene, c.b), Role::driven) |
            bit(only_shifts(scene, c.a) || only_shifts(scene, c.b), Role::unturned) |
            bit(is_looked_at_anew(c), Role::changing) | bit(may_strike(c), Role::strikes) |
-           bit(is_let_bounce(c), Role::bounces);
+           bit(is_let_bounce(c), Role::bounces) | bit(rounds_a_corner(c), Role::corners);
 }
 
 void list_contacts(std::size_t first, SoftContacts& contacts) {
     StageLists& lists = contacts.lists;
     if (first == 0) {
         for (auto* list : {&lists.driven, &lists.unturned, &lists.changing, &lists.strikers}) list->clear();
-        lists.any_bounce = false;
+        lists.any_bounce = lists.any_corners = false;
         contacts.layout.latecomers = contacts.all.size(), contacts.motion.given_fits = false, contacts.by_body.clear();
     }
     for (std::size_t k = first; k < contacts.all.size(); ++k) {
@@ -51,6 +51,7 @@ void list_contacts(std::size_t first, SoftContacts& contacts) {
         if (role & Role::changing) lists.changing.push_back(i);
         if (role & Role::strikes) lists.strikers.push_back(i);
         lists.any_bounce |= (role & Role::bounces) != 0;
+        lists.any_corners |= (role & Role::corners) != 0;
     }
 }
 

@@ -27,6 +27,7 @@ struct BodyMotion {
     std::vector<Mover> shifts;     ///< the movers with the velocities at which what is deep in one another is parted
     std::vector<Twist> by_joints;  ///< what joints gave, where there are any
     std::vector<Mover> given;      ///< what all contacts gave each body in the last substep
+    std::vector<Mover> leads;      ///< by what that is more than they were given, for normals have turned since
     bool given_fits = false;       ///< they are the contacts of this one still
     bool gaps_fit = false;         ///< nobody has moved since the gaps in the blocks were measured
 };

@@ -3,30 +3,11 @@
 
 #include "simd/lanes.hpp"
 #include "solvers/contact_rows.hpp"
+#include "solvers/measure_text.hpp"
 #include "solvers/row_text.hpp"
 
 namespace carom {
 namespace {
-
-struct Moving {
-    Lanes2 v;
-    Lanes w, inverse_mass;
-};
-
-/// The movers in these rows, which are four numbers each.
-inline Moving gather(const Mover* movers, const uint32_t* rows) {
-    static_assert(sizeof(Mover) == 4 * sizeof(double));
-    const Lanes4 m = quads(&movers->vx, rows);
-    return {{m.x, m.y}, m.z, m.w};
-}
-/// Bodies that nothing moves may be in several rows at once, and are left alone.
-inline void scatter(const Moving& in, Mover* movers, const uint32_t* rows) {
-    store_quads(&movers->vx, rows, {in.v.x, in.v.y, in.w, in.inverse_mass});
-}
-
-inline Lanes2 turned(Lanes x, Lanes y, Lanes cosine, Lanes sine) {
-    return {cosine * x - sine * y, sine * x + cosine * y};
-}
 
 /// A point of some contacts, with the levers of both bodies: along the normal as x, and across as y.
 template <class Point, class More>
@@ -185,6 +166,7 @@ struct RowsToWrite {
     Mask is_at_wall() const { return flags(kinds.is_at_wall, row); }
     Mask is_let_bounce() const { return flags(kinds.is_let_bounce, row); }
     Mask rounds_a_corner() const { return flags(kinds.rounds_a_corner, row); }
+    Mask follows_corner() const { return flags(kinds.follows_corner, row); }
     void put(double* numbers, Lanes value) const { __builtin_memcpy(numbers + row, &value, sizeof value); }
 };
 
@@ -215,57 +197,6 @@ void foresee_bounces(ContactBlock* blocks, size_t count, const Mover* movers, do
                     r.put(p.more.bounce, select(bounce > all(least), bounce, Lanes{}));
                 });
             });
-}
-
-/// The gap that two rounded corners have with these cores, less what the straight way along the normal makes of it in a
-/// substep: sweeps look along the normal, and so stop who goes past a corner as if he ran into its tangent.
-template <class Cores>
-inline Lanes gap_on_circle(const ContactBlock& block, size_t row, const Cores& cores, const Mover* movers, double h) {
-    const auto at = [row](const double* numbers) { return load(numbers + row); };
-    const Moving a = gather(movers, block.a + row), b = gather(movers, block.b + row);
-    const Lanes2 n{at(block.normal_x), at(block.normal_y)};
-    const Lanes2 way{all(h) * (b.v.x - b.w * cores.on_b.y - a.v.x + a.w * cores.on_a.y),
-                     all(h) * (b.v.y + b.w * cores.on_b.x - a.v.y - a.w * cores.on_a.x)};
-    const Lanes x = cores.between.x + way.x, y = cores.between.y + way.y;
-    const Lanes along = x * n.x + y * n.y, across = y * n.x - x * n.y;
-    // Who gets farther round meets another side of the corner.
-    const Lanes beside = select(across < Lanes{}, -across, across);
-    const Lanes bent = square_root(along * along + across * across) - along;
-    const Lanes straight = cores.between.x * n.x + cores.between.y * n.y - at(block.radii);
-    return straight + select(beside < along, bent, Lanes{});
-}
-
-/// Measures the gaps of a block for bodies in these frames, that are about to move like this.
-inline void measure(ContactBlock& block, const HalfBegin& half, const Mover* movers) {
-    constexpr double far = 1e300;
-    struct Cores {
-        Lanes2 on_a, on_b, between;
-    };
-    block.any_deep = false, block.is_measured = true;
-    for (size_t row = 0; row < block_rows; row += static_cast<size_t>(lanes)) {
-        const auto at = [row](const double* numbers) { return load(numbers + row); };
-        const Lanes4 a = quads(half.frames, block.a + row), b = quads(half.frames, block.b + row);
-        for (uint32_t i = 0; i < block.points; ++i) {
-            const ContactBlock::More& p = block.more[i];
-            const Lanes2 on_a = turned(at(p.core_a_x), at(p.core_a_y), a.z, a.w);
-            const Lanes2 on_b = turned(at(p.core_b_x), at(p.core_b_y), b.z, b.w);
-            const Lanes dx = (b.x - a.x) + on_b.x - on_a.x, dy = (b.y - a.y) + on_b.y - on_a.y;
-            Lanes between = dx * at(block.normal_x) + dy * at(block.normal_y) - at(block.radii);
-            if (block.any_corners) {
-                const Lanes bent = gap_on_circle(block, row, Cores{on_a, on_b, {dx, dy}}, movers, half.h);
-                between = select(at(block.corners) != Lanes{}, bent, between);
-            }
-            if (block.any_pivots) between += all(half.h) * at(p.turned_normal);
-            if (block.any_preload && !block.is_precise) {
-                const Lanes mass = at(block.point[i].normal_mass),
-                            pressed_in = all(half.preload_way) * at(p.preload) / mass;
-                between -= select(mass > Lanes{}, pressed_in, Lanes{});
-            }
-            const Lanes gap = select(at(p.open) != Lanes{}, all(far), between);
-            block.any_deep |= any(gap < -at(block.shallow));
-            __builtin_memcpy(block.point[i].gap + row, &gap, sizeof gap);
-        }
-    }
 }
 
 /// Adds the impulses of the forces before in so much time to those so far, or to none.
@@ -302,8 +233,12 @@ inline void resist_rolling(Rows<ContactBlock>& r, const Point& p) {
 
 template <bool soft, class Point>
 inline void push(Rows<ContactBlock>& r, const Point& p, const Softness& s) {
-    const Lanes gap = r.at(p.p.gap), zero{}, mass = r.at(p.p.normal_mass), before = r.at(p.p.normal_impulse);
-    const Lanes speed = r.speed_along(p);
+    const Lanes zero{}, mass = r.at(p.p.normal_mass), before = r.at(p.p.normal_impulse);
+    Lanes gap = r.at(p.p.gap);
+    if constexpr (!soft)
+        if (r.block.any_corners && &p.p == &r.block.point[0]) gap -= r.at(r.block.bend);  // who touches is to turn
+    Lanes speed = r.speed_along(p);
+    if (r.block.any_pivots) speed += r.at(p.more.turned_normal);
     Lanes touching = -mass * speed;
     if constexpr (soft) {
         // What the spring of the overlap still lacks, and of that no more than parts the two at the speed of recovery.
@@ -431,9 +366,14 @@ ContactSums settle(ContactBlock* blocks, size_t count, const Mover* means, doubl
                 const Lanes speed_apart = r.speed_along(p);
                 const Lanes undone = larger(zero, smaller(speed_apart, r.at(r.block.recovery)));
                 const Lanes parted = select(r.at(p.p.gap) < zero, undone, zero);
-                landing.add(r.row, pressed * (speed_apart - parted));
+                const Lanes across = r.speed_across(p);
+                Lanes landed = pressed * (speed_apart - parted);
+                if (r.block.any_corners && &p.p == &r.block.point[0])
+                    landed -= r.at(r.block.lag_along) * r.along + r.at(r.block.lag_across) * r.across +
+                              (r.at(r.block.lag_turn_b) * r.b.w - r.at(r.block.lag_turn_a) * r.a.w);
+                landing.add(r.row, landed);
                 parting.add(r.row, pressed * parted);
-                slip.add(r.row, rubbed * (r.speed_across(p) - speed));
+                slip.add(r.row, rubbed * (across - speed));
                 belt.add(r.row, rubbed * speed);
                 if (!r.block.any_rolling) return;
                 const Lanes rolled = r.at(p.more.rolling_impulse);
@@ -470,10 +410,17 @@ HeldSums sum_held(const ContactBlock* blocks, size_t count, const Mover* movers,
                     const Lanes x = select(a_holds, b.x, a.x) + (along * r.n.x - across * r.n.y);
                     const Lanes y = select(a_holds, b.y, a.y) + (along * r.n.y + across * r.n.x);
                     const Lanes sign = select(a_holds, all(1), all(-1));
-                    const Lanes2 impulse{sign * (pressed * r.n.x - rubbed * r.n.y),
-                                         sign * (pressed * r.n.y + rubbed * r.n.x)};
+                    Lanes2 impulse{sign * (pressed * r.n.x - rubbed * r.n.y),
+                                   sign * (pressed * r.n.y + rubbed * r.n.x)};
                     Lanes moment = x * impulse.y - y * impulse.x;
                     if (r.block.any_rolling) moment += sign * r.at(p.more.rolling_impulse);
+                    if (r.block.any_corners && &p.p == &r.block.point[0]) {
+                        const Lanes of_n = sign * r.at(r.block.lag_along), of_t = sign * r.at(r.block.lag_across);
+                        const Lanes2 lag{of_n * r.n.x - of_t * r.n.y, of_n * r.n.y + of_t * r.n.x};
+                        impulse.x -= lag.x, impulse.y -= lag.y;
+                        moment -= select(a_holds, a.x, b.x) * lag.y - select(a_holds, a.y, b.y) * lag.x +
+                                  sign * select(a_holds, r.at(r.block.lag_turn_a), r.at(r.block.lag_turn_b));
+                    }
                     walls.add(r.row, at_wall, impulse, moment);
                     all_of_them.add(r.row, holds, impulse, moment);
                 });

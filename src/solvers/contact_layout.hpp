@@ -32,7 +32,7 @@ inline void note_bit(std::uint8_t& bits, std::uint32_t row, bool is) {
 
 /// What contacts have a part in, as bits.
 struct Role {
-    static constexpr std::uint8_t driven = 1, unturned = 2, changing = 4, strikes = 8, bounces = 16;
+    static constexpr std::uint8_t driven = 1, unturned = 2, changing = 4, strikes = 8, bounces = 16, corners = 32;
 };
 
 /// The contacts in the rows of a block.
@@ -66,6 +66,7 @@ struct StageLists {
     std::vector<std::uint32_t> strikers;  ///< those that may strike in this step
     std::vector<std::uint32_t> landing;   ///< those that are pressed for the first time in this substep
     bool any_bounce = false;              ///< some bounce that sweeps let bounce
+    bool any_corners = false;             ///< of some it is two rounded corners that may touch
 };
 
 struct SoftContact;

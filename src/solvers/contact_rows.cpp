@@ -86,6 +86,7 @@ struct RowToWrite {
     bool is_at_wall() const { return contact.at_wall; }
     bool is_let_bounce() const { return carom::is_let_bounce(contact); }
     bool rounds_a_corner() const { return carom::rounds_a_corner(contact); }
+    bool follows_corner() const { return carom::follows_corner(contact); }
     void put(double* numbers, double value) const { numbers[contact.row] = value; }
 };
 
@@ -125,6 +126,7 @@ void note_row(const SoftContact& c, RowKinds& kinds) {
     for (int i = 0; i < 2; ++i) note_bit(kinds.has_point[i], c.row, i < c.manifold.count);
     note_bit(kinds.is_at_wall, c.row, c.at_wall), note_bit(kinds.is_let_bounce, c.row, is_let_bounce(c));
     note_bit(kinds.rounds_a_corner, c.row, rounds_a_corner(c));
+    note_bit(kinds.follows_corner, c.row, follows_corner(c));
 }
 
 void fill_row(const Bodies& bodies, const SoftContact& c, const Frame& a, const Frame& b, SoftContacts& contacts) {

@@ -51,7 +51,12 @@ struct alignas(64) ContactBlock {
     Numbers restitution;   ///< of those that sweeps let bounce, else 0
     Numbers shallow;       ///< overlap [m] that needs no load to be there
     Numbers radii;         ///< of the rounded rims together [m]
+    Numbers uneven;        ///< radius a less radius b [m]
     Numbers corners;       ///< 1 where two rounded corners may touch: they pass one another on a circle
+    Numbers bend;          ///< of their gap, for the way of the next substep, where they touch [m]
+    Numbers follows;       ///< 1 where the normal turns as they do so, in the midst of each substep
+    /// Of the impulses so far what they and their moments on a and b are more with the normal of now than as given.
+    Numbers lag_along, lag_across, lag_turn_a, lag_turn_b;
     struct More {
         Numbers open;    ///< 1 where nothing can touch in this substep
         Numbers bounce;  ///< speed [m/s] at which the two are to part, if they press on one another
@@ -83,7 +88,7 @@ struct RowSource {
 };
 /// What contacts are like, a bit for each of the rows of a block.
 struct RowKinds {
-    uint8_t has_point[2]{}, is_at_wall = 0, is_let_bounce = 0, rounds_a_corner = 0;
+    uint8_t has_point[2]{}, is_at_wall = 0, is_let_bounce = 0, rounds_a_corner = 0, follows_corner = 0;
 };
 
 /// The parameters of soft constraints (Catto, "Soft constraints", GDC 2011) for a substep.
@@ -121,6 +126,7 @@ struct HalfBegin {
     const double* frames;  ///< x, y, cosine, sine of each mover, for which gaps are measured
     double h;              ///< length of the substep [s]
     double preload_way;    ///< of gaps, for a preload of 1 N on an effective mass of 1 kg [s²]
+    Mover* leads;          ///< of the bodies, as normals turn to these frames; null where none is to turn
     bool keeps_gaps;       ///< but for those of blocks that are measured: nobody has moved since
 };
 

@@ -251,7 +251,9 @@ void begin(const State& state, const Manifold& manifold, double h, const SoftCon
     c.seen = {least_gap(c.manifold), between, angle(c.a), angle(c.b)};
     c.thickness = std::min(c.size, c.least_thickness);
     c.fast = is_fast(state, h, c.a, c.b, c.least_thickness, contacts);
-    c.turns = turns(Encounter(c), state, contacts.outlook.ahead);
+    const auto is_disc = [&](std::uint32_t piece) { return contacts.pieces.tags[piece].is_single; };
+    const bool are_discs = !c.at_wall && is_disc(c.piece_a) && is_disc(c.piece_b);  // with no other corner to come
+    c.turns = !are_discs && turns(Encounter(c), state, contacts.outlook.ahead);
     c.is_deep = least_gap(c.manifold) < -spring_depth(c);
     c.rests = is_inside(c, contacts.outlook.reach[c.a] + contacts.outlook.reach[c.b] + speculation * c.size);
 }
@@ -400,6 +402,10 @@ void look_again(const SoftScene& scene, const State& state, double h, SoftContac
     fill_row(scene.bodies, c, a, b, contacts);
 }
 
+void note_corner(const SoftContact& c, SoftContacts& contacts) {
+    if (rounds_a_corner(c)) contacts.layout.blocks[c.block].any_corners = contacts.lists.any_corners = true;
+}
+
 namespace {
 
 /// Has sweeps let one bounce that is in a crowd since its row was written.
@@ -419,7 +425,7 @@ void note_astray(const SoftScene& scene, const State& state, double h, const Scr
         take_out(c, h, contacts);
         look_again(scene, state, h, c, contacts);
         put_in(c, h, contacts);
-        contacts.layout.blocks[c.block].any_corners |= rounds_a_corner(c);
+        note_corner(c, contacts);
         const bool was_changing = is_looked_at_anew(c), did_strike = may_strike(c);
         c.fast = is_fast(state, h, c.a, c.b, c.least_thickness, contacts);
         c.rests = c.rests || rests(scene, state, c, h, contacts.outlook.ahead);

@@ -177,14 +177,44 @@ double cut_by_turns(const SoftScene& scene, const State& state, double left, dou
     return part;
 }
 
-double until_strike(const SoftScene& scene, const State& state, const SoftContacts& contacts, double h) {
-    constexpr double at_once = 1e-3, slow = 1e-3, anywhere = 1e300;  // of h; of the pieces' size in a substep
+namespace {
+
+/// What forces press two bodies together with [m/s²].
+class Pull {
+  public:
+    Pull(const SoftScene& scene, State& state, SoftContacts& contacts)
+        : scene_(scene), state_(state), rates_(contacts.motion.rates) {}
+
+    double operator()(const SoftContact& c, Vec2 normal) {
+        const Dynamics& dynamics = scene_.flight.dynamics;
+        if (!is_evaluated_ && !dynamics.is_free_flight()) dynamics.evaluate(state_, rates_);
+        is_evaluated_ = true;
+        const auto acceleration = [&](std::uint32_t row) {
+            if (!moves(scene_, row)) return Vec2{};
+            return dynamics.is_free_flight() ? dynamics.gravity() : rates_.acceleration.linear[row];
+        };
+        return std::max(0.0, dot(acceleration(c.a) - acceleration(c.b), normal));
+    }
+
+  private:
+    const SoftScene& scene_;
+    State& state_;
+    Rates& rates_;
+    bool is_evaluated_ = false;  ///< once somebody asks
+};
+
+}  // namespace
+
+double until_strike(const SoftScene& scene, State& state, SoftContacts& contacts, double h) {
+    constexpr double at_once = 1e-3, anywhere = 1e300;  // of h
+    constexpr double slow = 1e-3;      // of the pieces' size in a substep: slower ones may come to rest, or hang
     constexpr double just = 1 - 1e-3;  // before it: at its end the velocities of the flight are not along the joints
     constexpr int most_strikes = 3;    // of more that strike in a substep not each can have a part of it
     // Forces that look at velocities are those of a flight without a bounce: there the strike is alone in its part.
     const bool all = scene.flight.dynamics.sees_velocity();
     if (scene.mechanisms.empty() && !all) return h;
     Scratch<double> bends;  // once somebody asks
+    Pull pull(scene, state, contacts);
     double hung = h, free = h;
     int strikes = 0;
     for (const std::uint32_t i : contacts.lists.strikers) {  // who bounces and is not in a crowd is one until it rests
@@ -198,7 +228,8 @@ double until_strike(const SoftScene& scene, const State& state, const SoftContac
             const auto lever = levers(c, m, k, b.position - a.position);
             const Vec2 of_a = velocity_at(state, c.a, lever[0]), of_b = velocity_at(state, c.b, lever[1]);
             const double closing = -dot(of_b - of_a, m.normal), gap = m.point[k].gap;
-            if (closing * h <= slow * c.size) continue;
+            if (!(closing > 0)) continue;
+            if (closing * h <= slow * c.size && (!all || closing <= least_bounce * h * pull(c, m.normal))) continue;
             if (gap <= at_once * h * closing) {
                 first = std::min(first, 2 * at_once * h);
                 continue;

@@ -14,21 +14,14 @@ inline MoverRows mover_rows(State& state, SoftContacts& contacts) {
     const auto then = [&](State& s) {
         return MoverRows::Then{numbers(s.x.linear), s.x.angular.data(), numbers(s.v.linear), s.v.angular.data()};
     };
-    return {numbers(contacts.motion.movers),
-            numbers(contacts.motion.before),
-            numbers(contacts.motion.means),
-            numbers(contacts.motion.given),
-            numbers(contacts.motion.frames),
-            numbers(state.x.linear),
-            state.x.angular.data(),
-            numbers(state.v.linear),
-            state.v.angular.data(),
-            then(contacts.motion.start),
-            then(contacts.motion.proposed),
-            contacts.rest.asleep.data(),
-            nullptr,
-            contacts.motion.given_fits,
-            state.size()};
+    return {numbers(contacts.motion.movers), numbers(contacts.motion.before),
+            numbers(contacts.motion.means),  numbers(contacts.motion.given),
+            numbers(contacts.motion.frames), numbers(state.x.linear),
+            state.x.angular.data(),          numbers(state.v.linear),
+            state.v.angular.data(),          then(contacts.motion.start),
+            then(contacts.motion.proposed),  contacts.lists.any_corners ? numbers(contacts.motion.leads) : nullptr,
+            contacts.rest.asleep.data(),     nullptr,
+            contacts.motion.given_fits,      state.size()};
 }
 
 }  // namespace carom

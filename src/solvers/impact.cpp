@@ -81,6 +81,15 @@ void rub(std::size_t i, std::size_t j, Vec2 normal, double most, const Bodies& b
     if (most > 0) rub(a, b, normal, most, state.account);
 }
 
+void keep_turning(std::size_t i, std::size_t j, Vec2 normal, double part, const Bodies& bodies, State& state) {
+    Party a = party(i, bodies, state), b = party(j, bodies, state);
+    const Vec2 t = perpendicular(normal);
+    const double across = dot(b.velocity() - a.velocity(), t);
+    const double impulse = (part - 1) * across / (a.inverse_mass + b.inverse_mass);
+    apply(a, b, impulse * t, 0, state.account);
+    state.account[Account::parting] += 0.5 * (1 + part) * across * impulse;
+}
+
 void shift(std::size_t i, Vec2 by, const Bodies& bodies, Vec2 gravity, State& state) {
     state.x.linear[i] += by;
     if (bodies.inverse_mass[i] == 0) return;

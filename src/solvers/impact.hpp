@@ -38,6 +38,10 @@ void rub(std::size_t i, std::size_t j, Vec2 normal, double most, const Bodies& b
 /// An impact against a wall that does not move.
 bool collide(std::size_t i, const Touch& touch, const Bodies& bodies, State& state);
 
+/// Two that are put apart along the normal had this part of their distance before: what their momentum turns them about
+/// one another stays, and the velocity across is that part of what it was. Work of putting them apart, and no heat.
+void keep_turning(std::size_t i, std::size_t j, Vec2 normal, double part, const Bodies& bodies, State& state);
+
 /// Moves a body without any time passing, as overlaps are mended: work against gravity, and no momentum.
 void shift(std::size_t i, Vec2 by, const Bodies& bodies, Vec2 gravity, State& state);
 

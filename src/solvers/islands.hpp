@@ -79,9 +79,14 @@ void find_standing(const SoftScene&, const Scratch<std::uint32_t>& first, double
 void earn(const SoftScene&, SoftContacts&);
 
 /// The velocities that a body of an island would have without its contacts, if joints gave what they have given so far.
+/// All that contacts give is sought along the normals of now; what they gave before these turned is none of it.
 inline Mover without_contacts(const Island& island, const std::vector<Mover>& free, const SoftContacts& contacts,
                               std::uint32_t row) {
     Mover m = free[row];
+    if (contacts.lists.any_corners) {
+        const Mover& lead = contacts.motion.leads[row];
+        m.vx -= lead.vx, m.vy -= lead.vy, m.w -= lead.w;
+    }
     if (island.mechanisms.empty()) return m;
     const auto& [v, w] = contacts.motion.by_joints[row];
     m.vx += v.x, m.vy += v.y, m.w += w;

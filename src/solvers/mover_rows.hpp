@@ -13,6 +13,7 @@ struct MoverRows {
     struct Then {
         const double *x, *angle, *v, *turning;
     } start, proposed;
+    double* leads;  ///< null if nobody has any
     const unsigned char* asleep;
     const unsigned char* carried;  ///< drift and kick leave them alone; null if there are none
     bool gives_again;              ///< what was given in the substep before is given again

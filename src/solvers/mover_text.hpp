@@ -57,6 +57,8 @@ inline void take_drift(const MoverRows& m, const G& g, double h, double share) {
         now.x += share * given.x, now.y += share * given.y, now.z += share * given.z;
     }
     store_fours(m.movers + 4 * g.row, now, g.count);
+    const decltype(angle) none{};
+    if (m.leads) store_fours(m.leads + 4 * g.row, FoursOf<G>{none, none, none, now.w}, g.count);
 }
 
 template <class G>
@@ -105,8 +107,12 @@ inline void take_velocities(const MoverRows& m, const G& g) {
     const auto start = g.of(m.start.v), v = g.of(m.v);
     const auto start_turning = g.of_numbers(m.start.turning), turning = g.of_numbers(m.turning);
     const auto gained = [&](auto a, auto b) { return select(asleep, zero, a - b); };
-    store_fours(m.given + 4 * g.row,
-                FoursOf<G>{gained(now.x, before.x), gained(now.y, before.y), gained(now.z, before.z), now.w}, g.count);
+    FoursOf<G> given{gained(now.x, before.x), gained(now.y, before.y), gained(now.z, before.z), now.w};
+    if (m.leads) {
+        const auto lead = g.of_fours(m.leads);
+        given.x += lead.x, given.y += lead.y, given.z += lead.z;
+    }
+    store_fours(m.given + 4 * g.row, given, g.count);
     store_fours(m.before + 4 * g.row, FoursOf<G>{start.x, start.y, start_turning, before.w}, g.count);
     store_fours(m.means + 4 * g.row,
                 FoursOf<G>{0.5 * (start.x + now.x), 0.5 * (start.y + now.y), 0.5 * (start_turning + now.z), now.w},

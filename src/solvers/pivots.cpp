@@ -50,22 +50,61 @@ Frame frame_ahead(const State& state, const BodyMotion& motion, std::uint32_t ro
                     state.x.angular[row] + time * state.v.angular[row]);
 }
 
-void turn_levers(SoftContacts& contacts) {
+namespace {
+
+/// Where the bodies of a contact meet at the end of a substep: at the point that was found in the middle, or where a
+/// round rim has rolled on to since.
+struct Meeting {
+    Vec2 normal, core_a, core_b;  ///< from the bodies' positions
+};
+
+/// How a round rim meets a corner, or a straight edge that has turned by so much [rad] since its foot was found there.
+Meeting roll_on(const SoftContact& c, bool edge_of_a, double turned, Vec2 between, Meeting m) {
+    const Vec2 way = between + m.core_b - m.core_a;
+    if (c.manifold.corners) {
+        if (dot(way, m.normal) > 0) m.normal = way / length(way);
+        return m;
+    }
+    m.normal += turned * perpendicular(m.normal);
+    m.normal = m.normal / length(m.normal);
+    const Vec2 aside = way - dot(way, m.normal) * m.normal;
+    (edge_of_a ? m.core_a : m.core_b) += (edge_of_a ? 1 : -1) * aside;
+    return m;
+}
+
+}  // namespace
+
+void turn_levers(double h, SoftContacts& contacts) {
+    const std::vector<Mover>& movers = contacts.motion.movers;
+    const std::vector<Frame>& frames = contacts.motion.frames;
     for (const std::uint32_t index : contacts.lists.changing) {
         const SoftContact& c = contacts.all[index];
         if (!c.pivots) continue;
         ContactBlock& block = contacts.layout.blocks[c.block];
         const std::uint32_t k = c.row;
-        const Vec2 n{block.normal_x[k], block.normal_y[k]};
-        const auto turned = [&](std::uint32_t row, Vec2 core, Vec2 rim, Vec2 lever) {
-            return cross(contacts.motion.movers[row].w, contacts.motion.frames[row].turn(core) + rim - lever);
+        const Mover &a = movers[c.a], &b = movers[c.b];
+        const Vec2 n{block.normal_x[k], block.normal_y[k]}, between = frames[c.b].position - frames[c.a].position;
+        const bool rolls = c.manifold.count == 1 && (rounds_a_corner(c) || (c.is_single && !c.at_wall));
+        const bool edge_of_a = c.piece_a < contacts.pieces.tags.size() && !contacts.pieces.tags[c.piece_a].is_single;
+        const auto speed = [&](const Meeting& m) {
+            const Vec2 on_a = m.core_a + c.radius_a * m.normal, on_b = m.core_b - c.radius_b * m.normal;
+            return Vec2{b.vx, b.vy} + cross(b.w, on_b) - Vec2{a.vx, a.vy} - cross(a.w, on_a);
         };
         for (int i = 0; i < c.manifold.count; ++i) {
             auto& more = block.more[i];
-            const Vec2 core_a{more.core_a_x[k], more.core_a_y[k]}, core_b{more.core_b_x[k], more.core_b_y[k]};
-            const Vec2 faster = turned(c.b, core_b, -c.radius_b * n, lever_b_of(block, i, k)) -
-                                turned(c.a, core_a, c.radius_a * n, lever_a_of(block, i, k));
-            more.turned_normal[k] = dot(n, faster), more.turned_tangent[k] = cross(n, faster);
+            Meeting end{n, frames[c.a].turn({more.core_a_x[k], more.core_a_y[k]}),
+                        frames[c.b].turn({more.core_b_x[k], more.core_b_y[k]})};
+            if (rolls) end = roll_on(c, edge_of_a, 0.5 * h * (edge_of_a ? a : b).w, between, end);
+            const Vec2 now = speed(end);
+            const Vec2 of_block = Vec2{b.vx, b.vy} + cross(b.w, lever_b_of(block, i, k)) - Vec2{a.vx, a.vy} -
+                                  cross(a.w, lever_a_of(block, i, k));
+            more.turned_normal[k] = dot(end.normal, now) - dot(n, of_block);
+            more.turned_tangent[k] = cross(end.normal, now) - cross(n, of_block);
+            if (!rolls) continue;
+            const Vec2 core_a = frames[c.a].turn_back(end.core_a), core_b = frames[c.b].turn_back(end.core_b);
+            more.core_a_x[k] = core_a.x, more.core_a_y[k] = core_a.y;
+            more.core_b_x[k] = core_b.x, more.core_b_y[k] = core_b.y;
+            block.corners[k] = 0;
         }
     }
 }

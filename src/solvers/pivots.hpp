@@ -12,6 +12,6 @@ void note_pivots(const SoftScene&, const State&, SoftContacts&);
 /// Where a body will be in so much time [s] if it goes on as it does.
 Frame frame_ahead(const State&, const BodyMotion&, std::uint32_t row, double time);
 /// After the drift: by how much the points of pivots are faster than those that the block has for them.
-void turn_levers(SoftContacts&);
+void turn_levers(double h, SoftContacts&);
 
 }  // namespace carom

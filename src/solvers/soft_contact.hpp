@@ -120,6 +120,8 @@ inline bool rounds_a_corner(const Manifold& m, double radius_a, double radius_b)
     return m.corners && m.count == 1 && radius_a + radius_b > 0;
 }
 inline bool rounds_a_corner(const SoftContact& c) { return rounds_a_corner(c.manifold, c.radius_a, c.radius_b); }
+/// Whether the normal of such a one turns with them in the midst of each substep: a pivot has that of its middle.
+inline bool follows_corner(const SoftContact& c) { return rounds_a_corner(c) && !c.pivots; }
 /// Whether a contact is looked at in every substep, and whether it may strike in one.
 inline bool is_looked_at_anew(const SoftContact& c) { return c.fast || c.turns || c.pivots; }
 inline bool may_strike(const SoftContact& c) { return !c.rests && (!c.gentle || c.lands); }

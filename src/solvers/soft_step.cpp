@@ -79,7 +79,7 @@ void propose(Substep& s) {
 void strike_all(Substep& s) {
     strike(s.scene, s.motion.start, s.state, s.h, s.contacts);
     take_moving(s.scene.threads, s.contacts.rest.moving, s.state, s.motion.proposed);
-    for (auto* of_bodies : {&s.motion.before, &s.motion.means}) {
+    for (auto* of_bodies : {&s.motion.before, &s.motion.means, &s.motion.leads}) {
         of_bodies->resize(s.motion.movers.size());
         of_bodies->back() = s.motion.movers.back();  // the ground, where a body may have been that was removed
     }
@@ -139,12 +139,12 @@ void warm_rest(Substep& s, std::size_t first, std::size_t last) {
 }
 template <bool begins>
 void push(Substep& s, std::size_t first, std::size_t last) {
-    const HalfBegin half{s.first_share(), frames(s.motion), s.h, s.preload_way(), s.motion.gaps_fit};
+    const HalfBegin half{s.first_share(), frames(s.motion), s.h, s.preload_way(), nullptr, s.motion.gaps_fit};
     contact_kernel().solve(s.blocks(first), last - first, s.motion.movers.data(), s.soft(), begins ? &half : nullptr);
 }
 template <bool begins>
 void relax(Substep& s, std::size_t first, std::size_t last) {
-    const HalfBegin half{s.rest_share(), frames(s.motion), s.h, s.preload_way(), false};
+    const HalfBegin half{s.rest_share(), frames(s.motion), s.h, s.preload_way(), s.motion.leads.data(), false};
     contact_kernel().relax(s.blocks(first), last - first, s.motion.movers.data(), s.soft(), begins ? &half : nullptr);
 }
 
@@ -207,12 +207,16 @@ Vec2 impulse_of(const ContactBlock& block, int point, std::uint32_t k) {
 void book_driven(Substep& s, const SoftContact& c) {
     const ContactBlock& block = s.contacts.layout.blocks[c.block];
     const Mover &a = s.motion.means[c.a], &b = s.motion.means[c.b];
+    const auto work = [&](Vec2 impulse, double turning, Vec2 on_a, Vec2 on_b) {
+        const Twist at_a{Vec2{a.vx, a.vy} + cross(a.w, on_a), a.w}, at_b{Vec2{b.vx, b.vy} + cross(b.w, on_b), b.w};
+        s.state.account[Account::driven] += work_of_driven(s.scene, c, impulse, turning, at_a, at_b);
+    };
     for (int i = 0; i < c.manifold.count; ++i) {
-        const Twist at_a{Vec2{a.vx, a.vy} + cross(a.w, lever_a_of(block, i, c.row)), a.w};
-        const Twist at_b{Vec2{b.vx, b.vy} + cross(b.w, lever_b_of(block, i, c.row)), b.w};
-        s.state.account[Account::driven] +=
-            work_of_driven(s.scene, c, impulse_of(block, i, c.row), block.more[i].rolling_impulse[c.row], at_a, at_b);
+        const Vec2 on_a = lever_a_of(block, i, c.row), on_b = lever_b_of(block, i, c.row);
+        work(impulse_of(block, i, c.row), block.more[i].rolling_impulse[c.row], on_a, on_b);
     }
+    const double turn = is_driven(s.scene, c.a) ? block.lag_turn_a[c.row] : block.lag_turn_b[c.row];
+    work(-in_the_world(block, c.row, block.lag_along[c.row], block.lag_across[c.row]), -turn, {}, {});
 }
 
 void book_held_contacts(Substep& s) {
@@ -276,15 +280,13 @@ void look_at_changing(Substep& s) {
         }
         return found;
     };
-    const auto note_corner = [&](std::size_t number, std::uint32_t k) {
-        contacts.layout.blocks[contact(some * number + k).block].any_corners = true;
-    };
     for (std::size_t k = 0; k < count; ++k) take_out(contact(k), s.h, contacts);
-    each_row_where(s.scene.threads, (count + some - 1) / some, look, note_corner, 1);
+    const auto note = [&](std::size_t number, std::uint32_t k) { note_corner(contact(some * number + k), contacts); };
+    each_row_where(s.scene.threads, (count + some - 1) / some, look, note, 1);
     for (std::size_t k = 0; k < count; ++k) put_in(contact(k), s.h, contacts);
 }
 
-void turn(Substep& s) { turn_levers(s.contacts); }
+void turn(Substep& s) { turn_levers(s.h, s.contacts); }
 void note(Substep& s) { note_pressed(s.scene, s.contacts); }
 
 void finish(Substep& s) {

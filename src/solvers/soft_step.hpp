@@ -163,6 +163,8 @@ void note_rest(const SoftScene&, const State&, double dt, Rest&);
 /// be in its middle. What it gives (take_out, put_in), and that it rounds a corner, is for others to note: threads
 /// look.
 void look_again(const SoftScene&, const State&, double h, SoftContact&, SoftContacts&);
+/// Notes that it rounds a corner, if it does.
+void note_corner(const SoftContact&, SoftContacts&);
 /// Takes in those who went astray or further than was thought, and may meet somebody. False if too many of them are in
 /// no crowd, or some need more than that: then all is to be looked for again.
 bool take_in(const SoftScene&, const State&, double h, PreciseIslands&, SoftContacts&);
@@ -186,7 +188,7 @@ void strike(const SoftScene&, State& start, State& state, double h, SoftContacts
 int more_substeps(const SoftScene&, const State&, double h, const PreciseIslands&, const SoftContacts&);
 /// When something that hangs on joints strikes, of the next h [s]; h if nothing does, or as good as at once. Joints
 /// bend its way and hold while it strikes: a substep ends there.
-double until_strike(const SoftScene&, const State&, const SoftContacts&, double h);
+double until_strike(const SoftScene&, State&, SoftContacts&, double h);
 
 // What stages ask of a body or a contact.
 

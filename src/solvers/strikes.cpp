@@ -451,12 +451,13 @@ class Strikes {
         SoftContact& c = contacts_.all[index];
         take_out(c, h_, contacts_);
         c.manifold = m;
+        c.rests = true;
+        if (!c.crowded && !is_looked_at_anew(c) && turns_in(h_, c, a.w, b.w)) {
+            c.pivots = true;  // and not only from the next step on: what is left of this one would press its corner in
+            contacts_.lists.changing.push_back(index);
+        }
         fill_row(scene_.bodies, c, frame_at(a.x, a.angle), frame_at(b.x, b.angle), contacts_);
         put_in(c, h_, contacts_);
-        c.rests = true;
-        if (c.crowded || is_looked_at_anew(c) || !turns_in(h_, c, a.w, b.w)) return;
-        c.pivots = true;  // and not only from the next step on: what is left of this one would press its corner in
-        contacts_.lists.changing.push_back(index);
     }
 
     const SoftScene& scene_;

@@ -74,7 +74,12 @@ void put_apart(const Contact& c, double overlap, const Walls& walls, const Bodie
     const double ease = dot(n, j - i);
     if (!(ease > 0)) return;
     shift(c.i, overlap / ease * i, bodies, gravity, state);
-    if (!at_wall) shift(c.j, overlap / ease * j, bodies, gravity, state);
+    if (at_wall) return;
+    shift(c.j, overlap / ease * j, bodies, gravity, state);
+    // Who is put away from where he was, across his way, would turn the faster about the other one by that.
+    const double apart = bodies.radius[c.i] + bodies.radius[c.j];
+    const bool is_alone = i == -bodies.inverse_mass[c.i] * n && j == bodies.inverse_mass[c.j] * n;
+    if (is_alone && overlap < apart) keep_turning(c.i, c.j, n, 1 - overlap / apart, bodies, state);
 }
 
 /// The contacts given, and all others that pushing their bodies apart may lead to; in order, each once.

@@ -11,9 +11,11 @@ namespace carom {
 
 double speed_apart(const ContactBlock& block, int point, std::uint32_t k, const Aim& aim) {
     constexpr double recovered = 0.2;  // of an overlap in a substep
-    const double gap = block.point[point].gap[k];
-    if (gap > 0) return -gap / aim.h;
-    return aim.recovers ? std::min(-gap * recovered / aim.h, aim.undoes * block.recovery[k]) : 0;
+    // Who touches is to go round at the end, and not straight on as far as the next substep lets him.
+    const double gap = block.point[point].gap[k] - (aim.recovers || point > 0 ? 0 : block.bend[k]);
+    const double turned = block.more[point].turned_normal[k];
+    if (gap > 0) return -gap / aim.h - turned;
+    return (aim.recovers ? std::min(-gap * recovered / aim.h, aim.undoes * block.recovery[k]) : 0) - turned;
 }
 
 double speed_of_slip(const ContactBlock& block, int point, std::uint32_t k) {

@@ -110,7 +110,7 @@ struct Swept {
         constexpr double h = 1.0 / 240;
         const ContactKernel& kernel = contact_kernel();
         const Softness soft = softness(h, h);
-        const HalfBegin half{h, frames(scene.contacts.motion), h, 0, false};
+        const HalfBegin half{h, frames(scene.contacts.motion), h, 0, nullptr, false};
         block.is_idle = is_idle;
         for (const HalfBegin* begin : {&half, static_cast<const HalfBegin*>(nullptr)})
             kernel.solve(&block, 1, movers.data(), soft, begin);
