@@ -180,9 +180,9 @@ double cut_by_turns(const SoftScene& scene, const State& state, double left, dou
 namespace {
 
 /// What forces press two bodies together with [m/s²].
-class Pull {
+class Pressing {
   public:
-    Pull(const SoftScene& scene, State& state, SoftContacts& contacts)
+    Pressing(const SoftScene& scene, State& state, SoftContacts& contacts)
         : scene_(scene), state_(state), rates_(contacts.motion.rates) {}
 
     double operator()(const SoftContact& c, Vec2 normal) {
@@ -214,7 +214,7 @@ double until_strike(const SoftScene& scene, State& state, SoftContacts& contacts
     const bool all = scene.flight.dynamics.sees_velocity();
     if (scene.mechanisms.empty() && !all) return h;
     Scratch<double> bends;  // once somebody asks
-    Pull pull(scene, state, contacts);
+    Pressing pull(scene, state, contacts);
     double hung = h, free = h;
     int strikes = 0;
     for (const std::uint32_t i : contacts.lists.strikers) {  // who bounces and is not in a crowd is one until it rests
