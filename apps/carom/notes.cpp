@@ -274,20 +274,36 @@ std::string unstopped(const World& world) {
     return "";
 }
 
-/// Shapes that fall on a wall, or on one another, and lose nothing because nobody said what: they would be expected to
-/// come to rest. Empty if somebody said so.
-std::string never_resting(const Scene& scene, const World& world) {
-    const auto is_elastic = [](const Side& side) { return side.restitution == 1; };
+/// Whether a wall that loses nothing is below: what falls comes to it.
+bool is_elastic_floor_in(const World& world) {
+    const Vec2 gravity = world.settings().gravity;
+    const auto is_floor = [&](const Side& side, Vec2 normal) {
+        constexpr double upright = 1e-9;  // by rounding a wall beside has a little of a floor
+        return side.restitution == 1 && dot(normal, gravity) < -upright * length(normal) * length(gravity);
+    };
     const auto planes = world.half_planes();
     const auto rectangles = world.rectangles();
-    const bool is_floor =
-        std::any_of(planes.begin(), planes.end(), [&](const HalfPlane& h) { return is_elastic(h.side); }) ||
-        std::any_of(rectangles.begin(), rectangles.end(), [&](const Rectangle& r) { return is_elastic(r.bottom); });
-    if (!is_floor || world.settings().gravity == Vec2{} || !std::holds_alternative<SoftStep>(world.settings().solver) ||
+    return std::any_of(planes.begin(), planes.end(), [&](const HalfPlane& h) { return is_floor(h.side, h.normal); }) ||
+           std::any_of(rectangles.begin(), rectangles.end(), [&](const Rectangle& r) {
+               return is_floor(r.bottom, {0, 1}) || is_floor(r.top, {0, -1}) || is_floor(r.left, {1, 0}) ||
+                      is_floor(r.right, {-1, 0});
+           });
+}
+
+/// Shapes that fall on a wall, or on one another, and lose nothing because nobody said what: they would be expected to
+/// come to rest. Empty if somebody said so, be it that it is 1, or in --set.
+std::string never_resting(const Scene& scene, const World& world) {
+    if (!is_elastic_floor_in(world) || !std::holds_alternative<SoftStep>(world.settings().solver) ||
         scene.text().find("\"restitution\"") != std::string::npos)
         return "";
+    const auto is_elastic = [&world](std::size_t i) {
+        const auto& shapes = world.shapes()[i];
+        const double own = world.body(world.ids()[i]).restitution;
+        return !shapes.empty() && std::all_of(shapes.begin(), shapes.end(),
+                                              [own](const Shape& s) { return s.restitution.value_or(own) == 1; });
+    };
     for (std::size_t i = 0; i < world.size(); ++i)
-        if (world.kinds()[i] == Kind::dynamic && !world.shapes()[i].empty())
+        if (world.kinds()[i] == Kind::dynamic && is_elastic(i))
             return "no body and no wall has a restitution, which is then 1: " +
                    name_of(world, {.body = world.ids()[i]}) +
                    " bounces off what it falls on and never comes to rest. \"restitution\": 0, of one of the two, "

@@ -5,15 +5,16 @@
 
 #include <algorithm>
 #include <carom/output.hpp>
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "jobs_in_order.hpp"
 #include "products.hpp"
 #include "report.hpp"
-#include "side_by_side.hpp"
 #include "sweep_picture.hpp"
 #include "sweep_remarks.hpp"
 #include "sweep_table.hpp"
@@ -108,11 +109,13 @@ std::vector<Note> notes_of(const std::vector<GasAbsence>& left_out) {
 
 using SceneAt = std::function<Scene(const Point&)>;
 
-/// Of the points that are likely to tell, before the first run; or until Ctrl-C. The others are checked as they come:
-/// to build a hundred thousand worlds takes minutes. Returns the threads that there are for the runs.
+/// Before the first run, or until Ctrl-C: the points that are likely to tell, and of few all others, as long as that
+/// takes no time to speak of. The rest is checked as it comes: to build a hundred thousand worlds takes minutes.
+/// Returns the threads that there are for the runs.
 int check_first(const Sweep& sweep, const std::vector<Point>& points, const SceneAt& with) {
     std::vector<SweepRow> rows;
     const std::vector<std::size_t> telling = telling_points_of(sweep);
+    const auto start = std::chrono::steady_clock::now();
     Progress progress(telling.size(), "reading", STDERR_FILENO, "scenes");
     int threads = 1;
     for (std::size_t read = 0; const std::size_t k : telling) {
@@ -123,6 +126,13 @@ int check_first(const Sweep& sweep, const std::vector<Point>& points, const Scen
         if (!sweep.picture.empty()) rows.push_back({points[k], numbers_of(scene, sweep, points[k])});
     }
     if (!sweep.picture.empty()) check_sweep_picture(sweep, rows);
+    constexpr std::size_t few = 1000;
+    constexpr std::chrono::seconds patience{1};
+    const auto told = [&](std::size_t k) { return std::binary_search(telling.begin(), telling.end(), k); };
+    for (std::size_t k = 0; points.size() <= few && k < points.size(); ++k) {
+        if (was_interrupted() || std::chrono::steady_clock::now() - start > patience) break;
+        if (!told(k)) check(with(points[k]), sweep, points[k]);
+    }
     return threads;
 }
 
@@ -159,11 +169,11 @@ class SweepRuns {
           progress_(points_.size(), "sweep", ::isatty(STDOUT_FILENO) == 1 ? -1 : STDERR_FILENO, "runs") {}
 
     int run() {
-        SideBySide<Made> runs(points_.size(), abreast_);
+        JobsInOrder<Made> runs(points_.size(), abreast_);
         runs.run([this](std::size_t job) { return make(job); }, [this](Made made) { return take(std::move(made)); });
         progress_.finish();
         if (!error_) return report();
-        write(table_, noted_, done_);  // what was computed is kept
+        if (done_ > 0) report();  // what was computed is kept
         std::rethrow_exception(error_);
     }
 
@@ -209,7 +219,8 @@ class SweepRuns {
 
     int report() {
         const bool interrupted = done_ < points_.size();
-        const std::string words = fmt::format("interrupted after {} of {} runs", done_, points_.size());
+        const std::string words =
+            fmt::format("{} after {} of {} runs", error_ ? "ended by an error" : "interrupted", done_, points_.size());
         if (interrupted) status_ = 1, table_.remark(words);
         write(table_, noted_, done_);
         if (sweep_.json)
@@ -222,7 +233,7 @@ class SweepRuns {
         }
         std::fflush(stdout);
         if (!missed_.words().empty()) fmt::print(stderr, "carom: {}\n", missed_.words());
-        if (interrupted) fmt::print(stderr, "carom: {}\n", words);
+        if (interrupted && !error_) fmt::print(stderr, "carom: {}\n", words);  // an error is said by who catches it
         return status_;
     }
 

@@ -99,7 +99,7 @@ struct Convergence {
     std::vector<double> time{};      ///< of the samples [s]
     std::array<StudyRun, 3> runs{};  ///< at step, step/2, step/4, or tolerance, /10, /100
     double made_or_lost = 0;  ///< of the energy by the method: the most, as a part of the energies at play. Without a
-                              ///< reference it counts as an error
+                              ///< reference what all runs share of it counts as an error
     bool by_ledger = false;   ///< and is the only one that is too large
     std::optional<double> first_impact{};  ///< [s], of a sample: from there on the forces are not smooth
     std::optional<Growth> growth{};        ///< if it is exponential

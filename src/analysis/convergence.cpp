@@ -243,7 +243,8 @@ class Study {
     }
 
     /// What the method made or lost of the energy beside the energies at play. Where nothing tells whether the runs
-    /// converge to the truth, it counts as an error: three runs that agree may have lost the same.
+    /// converge to the truth, what all runs share of it counts as an error: three runs that agree may have lost the
+    /// same. What a finer run has less of shows in what is judged, as far as that feels it.
     void look_at_ledger() {
         const Energy e = energy(start_);
         const double rounded =
@@ -253,8 +254,13 @@ class Study {
         for (std::size_t k = 0; k < probes_.size(); ++k)
             if (const Followed& f = out_.quantities[k]; probes_[k].is_account && f.left_out.empty() && f.size > 0)
                 at_play = std::min(at_play, f.size);
-        for (const double joules : levels_[0].made_or_lost) ledger_.push_back(joules > rounded ? joules / at_play : 0);
-        out_.made_or_lost = largest(ledger_);
+        const auto beside = [&](double joules) { return joules > rounded ? joules / at_play : 0; };
+        for (std::size_t i = 0; i < ladder_.time.size(); ++i) {
+            out_.made_or_lost = std::max(out_.made_or_lost, beside(levels_[0].made_or_lost[i]));
+            // Of two finer runs, the one beyond as far as they are apart: where a loss at first order would end.
+            const double end = 2 * levels_[2].made_or_lost[i] - levels_[1].made_or_lost[i];
+            ledger_.push_back(beside(std::min(levels_[0].made_or_lost[i], std::max(end, 0.0))));
+        }
         if (reference_) ledger_.assign(ledger_.size(), 0);
     }
     /// What lifting all bodies by about their own size takes. Where nothing moves, nothing else is at play.

@@ -169,7 +169,8 @@ Followed follow(const std::array<const Track*, 3>& runs, const Track* reference,
         out.by = ErrorBy::reference;
     else
         out.by = out.order && window == all ? ErrorBy::order : ErrorBy::difference;
-    if (out.by == ErrorBy::difference) out.shrink = shrink_of(apart, distances(*runs[1], *runs[2], period), together);
+    if (out.by == ErrorBy::difference && !has_truth)  // else the reference says how far off, and needs no estimate
+        out.shrink = shrink_of(apart, distances(*runs[1], *runs[2], period), together);
     auto error = errors_of(0, out, runs, reference, ladder, period);
 
     // Runs can agree and be wrong: where all of them meet a fast force at the same phase, or do not feel the tolerance.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace carom {
 namespace {
@@ -52,19 +53,37 @@ bool Covered::over(Vec2 a, Vec2 b, double half, double apart, F f) const {
     return false;
 }
 
+/// Row by row, so that none is missed and each is set once: what is covered, and places that it touches.
+void Covered::mark(Vec2 a, Vec2 b) {
+    constexpr double touched = 0.35;  // places that a line may enter beside their middle
+    const double reach = fine * length(b - a), half = half_ + touched;
+    const Vec2 along = reach > 0 ? fine / reach * (b - a) : Vec2{1, 0}, aside{-along.y, along.x};
+    // A little beyond the ends, which are round.
+    const double more = std::min(half_, 1.0) + touched;
+    const Vec2 from = fine * a - more * along, to = fine * b + more * along;
+    const double low = std::max(0.0, std::floor(std::min(from.y, to.y) - half));
+    const double high = std::min(static_cast<double>(rows_ - 1), std::ceil(std::max(from.y, to.y) + half));
+    for (double row = low; row <= high; ++row) {
+        const Vec2 edge = Vec2{0.5, row + 0.5} - from;  // the middle of its first place
+        double first = 0, last = static_cast<double>(columns_ - 1);
+        clip(dot(edge, along), along.x, reach + 2 * more, first, last);
+        clip(dot(edge, aside) + half, aside.x, 2 * half, first, last);
+        if (!(first <= last)) continue;
+        const auto row_of = seen_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(row) * columns_);
+        const auto begin = static_cast<std::ptrdiff_t>(std::ceil(first));
+        const auto end = static_cast<std::ptrdiff_t>(last) + 1;
+        if (begin < end) std::fill(row_of + begin, row_of + end, static_cast<unsigned char>(1));
+    }
+}
+
 bool Covered::adds(Vec2 a, Vec2 b) {
     constexpr double endless = 1e6;  // pixels: beyond, it is not known well enough where it enters
     if (!(length(b - a) < endless)) return true;
-    const auto is_free = [&](std::size_t place) { return !seen_[place]; };
-    if (!over(a, b, std::max(half_ - fine * rim, 0.0), 1, is_free)) return false;
-    // So near to one another that none between is missed; and a little beyond the ends, which are round.
-    constexpr double dense = 0.7;
-    const double reach = length(b - a), more = std::min(half_, 1.0) / fine;
-    const Vec2 beyond = reach > 0 ? more / reach * (b - a) : Vec2{};
-    over(a - beyond, b + beyond, half_, dense, [&](std::size_t place) {
-        seen_[place] = true;
+    if (half_ == 0) return over(a, b, 0, 1, [&](std::size_t place) { return std::exchange(seen_[place], 1) == 0; });
+    constexpr double apart = 2;  // places, half a pixel: what lies between has been drawn with them
+    if (!over(a, b, std::max(half_ - fine * rim, 0.0), apart, [&](std::size_t place) { return seen_[place] == 0; }))
         return false;
-    });
+    mark(a, b);
     return true;
 }
 

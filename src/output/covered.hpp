@@ -16,9 +16,11 @@ class Covered {
   private:
     template <class F>
     bool over(Vec2 a, Vec2 b, double half, double apart, F f) const;
+    void mark(Vec2 a, Vec2 b);
+
     std::size_t columns_, rows_;
     double half_;
-    std::vector<bool> seen_;
+    std::vector<unsigned char> seen_;  // a byte each, for they are set by rows
 };
 
 }  // namespace carom

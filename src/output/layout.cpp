@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <span>
 
@@ -213,18 +214,52 @@ double text_width(std::string_view text) {
     return letter * static_cast<double>(letters);
 }
 
+namespace {
+
+/// Whether fonts show it as a coloured picture by itself: Emoji_Presentation of Unicode 15.
+bool is_emoji(char32_t c) {
+    struct Range {
+        char32_t first, last;
+    };
+    static constexpr Range pictures[] = {
+        {0x231A, 0x231B}, {0x23E9, 0x23F3}, {0x25FD, 0x25FE}, {0x2614, 0x2615}, {0x2648, 0x2653},  {0x267F, 0x267F},
+        {0x2693, 0x2693}, {0x26A1, 0x26A1}, {0x26AA, 0x26AB}, {0x26BD, 0x26BE}, {0x26C4, 0x26C5},  {0x26CE, 0x26CE},
+        {0x26D4, 0x26D4}, {0x26EA, 0x26EA}, {0x26F2, 0x26F5}, {0x26FA, 0x26FA}, {0x26FD, 0x26FD},  {0x2705, 0x2705},
+        {0x270A, 0x270B}, {0x2728, 0x2728}, {0x274C, 0x274E}, {0x2753, 0x2757}, {0x2795, 0x2797},  {0x27B0, 0x27B0},
+        {0x27BF, 0x27BF}, {0x2B1B, 0x2B1C}, {0x2B50, 0x2B50}, {0x2B55, 0x2B55}, {0x1F000, 0x1FAFF}};
+    return std::any_of(std::begin(pictures), std::end(pictures),
+                       [c](const Range& r) { return r.first <= c && c <= r.last; });
+}
+
+/// The bytes of the character that begins with this one; 1 of a byte that begins none.
+std::size_t bytes_of(char first) {
+    const auto byte = static_cast<unsigned char>(first);
+    return byte >= 0xF0 ? 4 : byte >= 0xE0 ? 3 : byte >= 0xC0 ? 2 : 1;
+}
+
+/// The character that UTF-8 has in these bytes.
+char32_t decoded(std::string_view bytes) {
+    const unsigned first = static_cast<unsigned char>(bytes[0]);
+    char32_t c = bytes.size() == 1 ? first : first & (0x7Fu >> bytes.size());
+    for (const char next : bytes.substr(1)) c = c << 6 | (static_cast<unsigned char>(next) & 0x3Fu);
+    return c;
+}
+
+}  // namespace
+
 std::string without_emoji(std::string_view text) {
+    constexpr char32_t joiner = 0x200D, as_picture = 0xFE0F;
     std::string out;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const std::string_view next = text.substr(i, 3);
-        if (next == "\u200d" || next == "\ufe0f") {  // what joins them, and makes one of a sign
-            i += 2;
-        } else if (static_cast<unsigned char>(text[i]) >= 0xf0) {
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t length = bytes_of(text[i]);
+        const std::string_view bytes = text.substr(i, length);
+        i += bytes.size();
+        const char32_t c = decoded(bytes);
+        if (c == joiner || c == as_picture) continue;
+        if (bytes.size() < length || is_emoji(c))
             out += "□";
-            i += 3;
-        } else {
-            out += text[i];
-        }
+        else
+            out += bytes;
     }
     return out;
 }

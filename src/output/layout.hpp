@@ -43,8 +43,8 @@ inline constexpr double bar_width = 1.1 * font_size;  ///< of a colour bar
 
 /// Width of a text in pixels, a little generous.
 double text_width(std::string_view text);
-/// With a square for each character of four bytes, as emoji are: where a font has one it is a coloured picture, which
-/// Cairo draws over all else.
+/// With a square for each emoji that is a picture by itself: where a font has one it is coloured, and Cairo draws it
+/// over all else.
 std::string without_emoji(std::string_view text);
 /// Where the unit [in brackets] at the end of a text begins.
 std::size_t unit_of(const std::string& text);

@@ -1,11 +1,13 @@
 #include "output/strokes.hpp"
 
 #include <algorithm>
+#include <carom/error.hpp>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "output/covered.hpp"
+#include "output/unfinished.hpp"
 
 namespace carom {
 namespace {
@@ -91,22 +93,40 @@ std::vector<Vec2> thin(const std::vector<Vec2>& points) {
     return kept;
 }
 
+/// Of millions of points the outlines take seconds, in which Ctrl-C is heard. Of a run that was cut short by it before,
+/// there is a figure nevertheless.
+class Patience {
+  public:
+    void ask() const {
+        if (figures_were_interrupted() && !before_)
+            throw Error("interrupted while a figure was drawn", Error::Cause::run);
+    }
+
+  private:
+    bool before_ = figures_were_interrupted();
+};
+
 // Of a crowd of marks: none where one stands.
-std::vector<std::vector<Vec2>> without_others(const std::vector<Vec2>& points, Covered& covered) {
+std::vector<std::vector<Vec2>> without_others(const std::vector<Vec2>& points, Covered& covered,
+                                              const Patience& patience) {
     std::vector<Vec2> kept;
-    for (Vec2 point : points)
+    for (Vec2 point : points) {
+        patience.ask();
         if (covered.adds(point, point)) kept.push_back(point);
+    }
     if (kept.empty()) return {};
     return {kept};
 }
 
 // What runs over itself a thousand times is drawn once: Cairo works out the outline of a whole path, in far more time
 // than twice the path takes twice of. So none is too long, either; each begins where the last one ended.
-std::vector<std::vector<Vec2>> without_repeats(const std::vector<Vec2>& points, Covered& covered) {
+std::vector<std::vector<Vec2>> without_repeats(const std::vector<Vec2>& points, Covered& covered,
+                                               const Patience& patience) {
     constexpr std::size_t longest = 1000;
     std::vector<std::vector<Vec2>> parts;
     bool goes_on = false;
     for (std::size_t i = 1; i < points.size(); ++i) {
+        patience.ask();
         const bool drawn = covered.adds(points[i - 1], points[i]);
         if (drawn && (!goes_on || parts.back().size() == longest)) parts.push_back({points[i - 1]});
         if (drawn) parts.back().push_back(points[i]);
@@ -116,19 +136,21 @@ std::vector<std::vector<Vec2>> without_repeats(const std::vector<Vec2>& points, 
 }
 
 // Of dashes the phase would be lost where some are left out.
-std::vector<std::vector<Vec2>> drawn(const std::vector<Vec2>& piece, Stroke stroke, bool crowded, Covered& covered) {
+std::vector<std::vector<Vec2>> drawn(const std::vector<Vec2>& piece, Stroke stroke, bool crowded, Covered& covered,
+                                     const Patience& patience) {
     const bool marks = stroke == Stroke::points || stroke == Stroke::ring;
-    if (marks && crowded) return without_others(piece, covered);
+    if (marks && crowded) return without_others(piece, covered, patience);
     if (marks || stroke == Stroke::line_and_points) return {thin(piece)};
     std::vector<Vec2> points = simplify(piece);
     avoid_steps(points);
-    if (stroke == Stroke::line && points.size() > 1) return without_repeats(points, covered);
+    if (stroke == Stroke::line && points.size() > 1) return without_repeats(points, covered, patience);
     return {points};
 }
 
 }  // namespace
 
 std::vector<std::vector<Vec2>> strokes(const Curve& curve, const PanelPlace& place) {
+    const Patience patience;
     std::vector<std::vector<Vec2>> pieces(1);
     for (std::size_t i = 0; i < curve.x.size(); ++i) {
         const double x = curve.x[i], y = curve.y[i];
@@ -144,7 +166,7 @@ std::vector<std::vector<Vec2>> strokes(const Curve& curve, const PanelPlace& pla
     Covered covered(place.width, place.height, curve.stroke == Stroke::line ? line_width * curve.width : 0);
     constexpr std::size_t few = 1000;
     for (const auto& piece : pieces)
-        for (auto& part_of_it : drawn(piece, curve.stroke, curve.x.size() > few, covered))
+        for (auto& part_of_it : drawn(piece, curve.stroke, curve.x.size() > few, covered, patience))
             parts.push_back(std::move(part_of_it));
     if (parts.empty() && !pieces.empty()) parts.push_back({pieces[0][0]});  // all of it is outside; it has its name
     for (auto& points : parts)

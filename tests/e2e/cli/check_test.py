@@ -250,13 +250,14 @@ class Check(carom.Case):
             "bodies": [stand, box("plank", 0, 0.75, 20, 4, 0.1), box("Anna", -1.5, 1.1, 25, 0.4, 0.6),
                        box("Ben", 1.5, 1.1, 30, 0.4, 0.6)],
             "joints": [{"name": "pivot", "a": "stand", "b": "plank", "at": [0, 0.75], "type": "revolute"}],
-            "run": {"duration": 2, "step": "1/60"},
+            "run": {"duration": 1.3, "step": "1/60"},  # Ben's end lands at 1.17 s
         }
         name = self.write(scene)
         c = self.study(name, status=1)
         self.assertEqual((c["verdict"], c["state"]["by"]), ("refine", "from the finest run"))
-        if c["refined_step"] is not None:
-            self.study(name, "--step", c["refined_step"], status=0)
+        self.assertIsNotNone(c["refined_step"])
+        again = self.study(name, "--step", c["refined_step"], status=0)
+        self.assertEqual((again["verdict"], again["refined_step"]), ("trust", None))
 
     def test_a_picture_is_drawn(self):
         self.succeeds("check", self.write(FALL), "--out", "pictures", "--format", "svg")

@@ -37,6 +37,15 @@ class Notes(carom.Case):
                       {"bodies": [{"name": "disc", "position": [0, 1], "radius": 0.5}]},
                       {"walls": [{"type": "half-plane", "side": {"restitution": 0.5}}]}):
             self.assertNotIn("no body and no wall", self.note({**scene, **other}))
+        # It falls past a wall, and what --set says counts.
+        beside = {"walls": [{"type": "half-plane", "point": [-5, 0], "normal": [1, 0]}]}
+        self.assertNotIn("no body and no wall", self.note({**scene, **beside}))
+        slope = {"walls": [{"type": "half-plane", "point": [0, -1], "normal": [0.6, 0.8]}]}
+        self.assertIn("no body and no wall", self.note({**scene, **slope}))
+        self.write(scene)
+        for field in "bodies[0].restitution", "walls[0].side.restitution":
+            ran = self.carom("run", "scene.json", "--set", field + "=0.5")
+            self.assertEqual((ran.returncode, ran.stderr.count("no body and no wall")), (0, 0), ran.stderr)
 
     def test_velocities_that_a_joint_does_not_allow_were_stopped_without_a_word(self):
         bar = {"name": "bar", "position": [1, 0], "velocity": [0, 1], "shapes": [{"type": "box", "width": 2, "height": 0.1}]}

@@ -15,6 +15,8 @@ from carom import FALL, SCENES, without_notes
 
 THROW = {**FALL, "title": "A fall", "parameters": {"g": 10, "h": 5}, "world": {"gravity": [0, "-g"]},
          "expects": [{"text": "speed", "quantity": "ball.vy", "value": "-g", "tolerance": 1e-9}]}
+# Whose ends are fine in a sweep over m, and not what is in their middle.
+SQUARE = {**FALL, "parameters": {"m": 1}, "bodies": [{"mass": "m*m"}]}
 
 
 class Sweep(carom.Case):
@@ -393,12 +395,27 @@ class Sweep(carom.Case):
             ran = self.carom("run", self.write(FALL), "--sweep", "bodies[0].mass=3:-3:-2", "--quantity", "t", "--csv", "t.csv",
                              "--threads", threads)
             self.assertEqual((ran.returncode, ran.stdout), (2, ""))  # the last value is known before the first run
-            # The ends are fine, and the middle is not.
-            ran = self.carom("run", self.write({**FALL, "parameters": {"m": 1}, "bodies": [{"mass": "m*m"}]}),
-                             "--sweep", "m=-2:2", "--quantity", "t", "--csv", "t.csv", "--threads", threads)
+            # The ends are fine, and the middle is not, which of so many is looked at when it comes.
+            ran = self.carom("run", self.write(SQUARE), "--sweep", "m=-2:1200", "--quantity", "t", "--csv", "t.csv",
+                             "--threads", threads)
             self.assertEqual(ran.returncode, 2)
             self.assertIn("carom: --sweep m=0: scene.json: bodies[0].mass must be a number > 0", ran.stderr)
             self.assertEqual([row[0] for row in self.table("t.csv")], ["m", "-2", "-1"])
+            self.assertTrue((self.path / "t.csv").read_text().endswith("# ended by an error after 2 of 1203 runs\n"))
+
+    def test_a_bad_value_in_the_middle_of_a_few_was_found_when_it_came(self):
+        self.fails(2, "carom: --sweep m=0: scene.json: bodies[0].mass must be a number > 0", "run", self.write(SQUARE),
+                   "--sweep", "m=-3:3", "--quantity", "t", "--csv", "t.csv")
+        self.assertEqual(self.files(), ["scene.json"])
+
+    def test_an_error_on_the_way_took_json_and_picture_with_it(self):
+        ran = self.carom("run", self.write(SQUARE), "--sweep", "m=-2:1200", "--quantity", "t", "--json", "--picture", "p.svg")
+        self.assertEqual(ran.returncode, 2)
+        self.assertIn("carom: --sweep m=0: ", ran.stderr)
+        found = json.loads(ran.stdout)
+        self.assertTrue(found["interrupted"])
+        self.assertEqual([run["value"] for run in found["runs"]], ["-2", "-1"])
+        self.assertIn("p.svg", self.files())
 
     def test_energy_that_a_sweep_invents_was_in_no_note(self):
         spring = {"type": "spring", "a": "w", "b": "b", "stiffness": 1e4}

@@ -299,5 +299,13 @@ TEST(Layout, AnEmojiIsASquare) {
     EXPECT_EQ(without_emoji("\xf0"), "□");
 }
 
+// A speed in mathematical italics, as people paste it, was a square; a star and a tick, of three bytes, were pictures.
+TEST(Layout, NotEveryCharacterOfFourBytesIsAnEmojiAndSomeOfThreeAre) {
+    EXPECT_EQ(without_emoji("speed 𝑣, 𝛼 and 𠮷"), "speed 𝑣, 𝛼 and 𠮷");
+    EXPECT_EQ(without_emoji("⭐ ✅ ⚽ ⌚ ⬛ ⏳ ♈ ❓"), "□ □ □ □ □ □ □ □");
+    EXPECT_EQ(without_emoji("★ ✓ ⚙ ■ → ☀ é"), "★ ✓ ⚙ ■ → ☀ é");
+    EXPECT_EQ(without_emoji("👩‍🚀"), "□□");
+}
+
 }  // namespace
 }  // namespace carom

@@ -1,38 +1,47 @@
 #pragma once
+#include <algorithm>
 #include <condition_variable>
 #include <cstddef>
 #include <map>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
 
 namespace carom::app {
 
-/// Makes something for each of many jobs on several threads, and takes it on this one, in order.
+/// Makes something for each of many jobs on several threads, and takes it on this one, in order. The threads end with
+/// run(), however it ends: what they make things with is not ours.
 template <class Made>
-class SideBySide {
+class JobsInOrder {
   public:
-    SideBySide(std::size_t jobs, std::size_t threads) : jobs_(jobs), ahead_(2 * threads), threads_(threads) {}
-    SideBySide(const SideBySide&) = delete;
-    SideBySide& operator=(const SideBySide&) = delete;
-    ~SideBySide() { stop(); }
+    JobsInOrder(std::size_t jobs, std::size_t threads)
+        : jobs_(jobs), threads_(std::min({threads, jobs, most_threads})), ahead_(2 * threads_) {}
+    JobsInOrder(const JobsInOrder&) = delete;
+    JobsInOrder& operator=(const JobsInOrder&) = delete;
 
-    /// `make(job)` must not throw; `take(made)` says whether to go on. On one thread they take turns.
+    /// `make(job)` must not throw; `take(made)` says whether to go on. On one thread they take turns. Where the system
+    /// has fewer threads left, there are fewer.
     template <class Make, class Take>
     void run(const Make& make, const Take& take) {
-        if (threads_ <= 1) {
-            for (std::size_t job = 0; job < jobs_; ++job)
-                if (!take(make(job))) return;
-            return;
+        const End end{*this};
+        try {
+            for (std::size_t k = 0; k < threads_ && threads_ > 1; ++k)
+                workers_.emplace_back([this, &make] { work(make); });
+        } catch (const std::system_error&) {
         }
-        for (std::size_t k = 0; k < threads_; ++k) workers_.emplace_back([this, &make] { work(make); });
+        const bool alone = workers_.empty();
         for (std::size_t job = 0; job < jobs_; ++job)
-            if (!take(next())) return stop();
-        stop();
+            if (!take(alone ? make(job) : next())) return;
     }
 
   private:
+    struct End {
+        JobsInOrder& jobs;
+        ~End() { jobs.stop(); }
+    };
+
     template <class Make>
     void work(const Make& make) {
         std::unique_lock lock(mutex_);
@@ -66,7 +75,9 @@ class SideBySide {
         workers_.clear();
     }
 
-    const std::size_t jobs_, ahead_, threads_;
+    static constexpr std::size_t most_threads = 256;
+
+    const std::size_t jobs_, threads_, ahead_;
     std::mutex mutex_;
     std::condition_variable changed_;
     std::map<std::size_t, Made> ready_;
