@@ -213,6 +213,8 @@ double until_strike(const SoftScene& scene, State& state, SoftContacts& contacts
     // Forces that look at velocities are those of a flight without a bounce: there the strike is alone in its part.
     const bool all = scene.flight.dynamics.sees_velocity();
     if (scene.mechanisms.empty() && !all) return h;
+    // What is deep in one another is parted, in short substeps as fast as in long ones: for slow strikes none is cut.
+    const bool cuts_slow = all && !any_deep(contacts);
     Scratch<double> bends;  // once somebody asks
     Pressing pull(scene, state, contacts);
     double hung = h, free = h;
@@ -229,7 +231,8 @@ double until_strike(const SoftScene& scene, State& state, SoftContacts& contacts
             const Vec2 of_a = velocity_at(state, c.a, lever[0]), of_b = velocity_at(state, c.b, lever[1]);
             const double closing = -dot(of_b - of_a, m.normal), gap = m.point[k].gap;
             if (!(closing > 0)) continue;
-            if (closing * h <= slow * c.size && (!all || closing <= least_bounce * h * pull(c, m.normal))) continue;
+            const bool is_slow = closing * h <= slow * c.size;
+            if (is_slow && (!cuts_slow || closing <= least_bounce * h * pull(c, m.normal))) continue;
             if (gap <= at_once * h * closing) {
                 first = std::min(first, 2 * at_once * h);
                 continue;

@@ -263,6 +263,8 @@ void book_contacts(Substep& s) {
         for (int i = 0; i < c.manifold.count; ++i)
             book_driven_spin(s.scene, s.state, c, {lever_a_of(block, i, c.row), lever_b_of(block, i, c.row)},
                              impulse_of(block, i, c.row), block.more[i].rolling_impulse[c.row], account);
+        if (only_shifts(s.scene, c.a)) account[Account::driven] -= block.lag_turn_a[c.row] * s.state.v.angular[c.a];
+        if (only_shifts(s.scene, c.b)) account[Account::driven] += block.lag_turn_b[c.row] * s.state.v.angular[c.b];
     }
 }
 

@@ -140,11 +140,14 @@ void World::State::move_company(double h, int cuts) {
     memory.continues = false;
 }
 
+/// The shortest turn, of a substep.
+constexpr double least_turn = 1e-6;
+
 /// Turn by turn, of which a hit ends one where it sends bodies on ways that their own method has to find.
 void World::State::take_turns(double h, int cuts) {
     constexpr int most = 100;  // who is struck more often goes on as he was thought to
     Turn turn{h, h};
-    for (int k = 0; turn.left > 0; ++k) turn = take_turn(turn, cuts, k < most);
+    for (int k = 0; turn.left > 0; ++k) turn = take_turn(turn, cuts, k < most && turn.left > 2 * least_turn * h);
     for (std::size_t row = 0; row < motion.size(); ++row)  // where their contacts are told
         soft_contacts.motion.frames[row].position = motion.x.linear[row];
 }
@@ -152,7 +155,7 @@ void World::State::take_turns(double h, int cuts) {
 /// The others move as if there were no gas. That it pushes them is added to their ways while the gas flies by. If it
 /// strikes one who bounces after that, or lies on something, they move once more and no further than to there.
 World::State::Turn World::State::take_turn(const Turn& turn, int cuts, bool may_stop) {
-    const double least = 1e-6 * turn.substep;
+    const double least = least_turn * turn.substep;
     const GasScene scene = gas_scene();
     GasCompany& company = together.company;
     make_ready(scene, motion, gas);
