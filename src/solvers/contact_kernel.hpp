@@ -238,7 +238,10 @@ inline void push(Rows<ContactBlock>& r, const Point& p, const Softness& s) {
     if constexpr (!soft)
         if (r.block.any_corners && &p.p == &r.block.point[0]) gap -= r.at(r.block.bend);  // who touches is to turn
     Lanes speed = r.speed_along(p);
-    if (r.block.any_pivots) speed += select(gap < -r.at(r.block.shallow), zero, r.at(p.more.turned_normal));
+    if (r.block.any_pivots) {  // as speed_apart() has it
+        const Lanes most = select(gap < -r.at(r.block.shallow), zero, r.at(r.block.recovery));
+        speed += larger(-most, smaller(r.at(p.more.turned_normal), most));
+    }
     Lanes touching = -mass * speed;
     if constexpr (soft) {
         // What the spring of the overlap still lacks, and of that no more than parts the two at the speed of recovery.

@@ -214,7 +214,9 @@ double until_strike(const SoftScene& scene, State& state, SoftContacts& contacts
     const bool all = scene.flight.dynamics.sees_velocity();
     if (scene.mechanisms.empty() && !all) return h;
     // What is deep in one another is parted, in short substeps as fast as in long ones: for slow strikes none is cut.
-    const bool cuts_slow = all && !any_deep(contacts);
+    const bool cuts_slow = all && std::none_of(contacts.all.begin(), contacts.all.end(), [=](const SoftContact& c) {
+                               return least_gap(c.manifold) < -slow * c.size;
+                           });
     Scratch<double> bends;  // once somebody asks
     Pressing pull(scene, state, contacts);
     double hung = h, free = h;
