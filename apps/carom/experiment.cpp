@@ -20,6 +20,11 @@ std::atomic<bool> interrupted = false;
 std::atomic<int> runs = 0;  // that are between their first step and their last
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
+struct Running {
+    Running() { ++runs; }
+    ~Running() { --runs; }
+};
+
 void apply(Scene& scene, const Override& o) {
     if (!o.place.empty()) return scene.set(o.place, o.value);
     const auto equals = o.value.find('=');
@@ -233,17 +238,16 @@ Result run(const Scene& scene, Course course, const std::string& label, const st
         if (interrupted) throw Stop{};
         stepping = true;
     };
-    ++runs;
     try {
+        const Running running;
         carom::run(course.world, plan.duration, plan.step, after_step, before);
     } catch (Stop) {
         stopped = true;
     } catch (const Error& e) {
-        if (!stepping || e.cause() == Error::Cause::input) --runs;
         if (!stepping || e.cause() == Error::Cause::input) throw;
         failure = e.what();
     }
-    if (--runs == 0) ::alarm(0);  // what is left is to write it all down
+    if (runs == 0) ::alarm(0);  // what is left is to write it all down
     look_at_clock();
     if (bystander && failure.empty() && course.done < steps) bystander(course, true);
     // Data reach to where the run was interrupted. Not in the checkpoint: one that goes on has no frame there.
