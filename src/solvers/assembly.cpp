@@ -12,7 +12,7 @@ namespace carom {
 
 namespace {
 
-constexpr std::uint32_t no_index = 0xffffffff;
+constexpr std::uint32_t no_index = no_mechanism;
 
 /// Rows of a joint's bodies; the ground is the row after the last.
 struct Pair {
@@ -52,7 +52,7 @@ void take_order(const Mechanism& from, Mechanism& m) {
     m.unknowns.resize(from.unknowns.size());
 }
 
-/// Puts joints into mechanisms, one by one.
+/// Puts joints into mechanisms, one by one. Whom no edit concerns stays as it was.
 class Assembly {
   public:
     Assembly(Mechanisms& mechanisms, const Bodies& bodies, const Motion& places)
@@ -65,7 +65,7 @@ class Assembly {
         std::vector<std::uint32_t> mechanism_of(bodies_.size(), no_index);
         for (std::uint32_t k = 0; k < to_.joints.size(); ++k) {
             Law laws[most_rows];
-            if (laws_of(to_.joints[k], laws) == 0) continue;
+            if (to_.home[k] == no_index && laws_of(to_.joints[k], laws) == 0) continue;
             const auto [a, b] = rows_of(to_.joints[k], bodies_);
             std::uint32_t& index = mechanism_of[find(moves(b) ? b : a)];
             if (index == no_index) index = static_cast<std::uint32_t>(to_.all.size()), to_.all.emplace_back();
@@ -73,8 +73,9 @@ class Assembly {
             joints_[index].push_back(k);
         }
         for (std::uint32_t i = 0; i < to_.all.size(); ++i) {
-            fill(to_.all[i], joints_[i]);
+            if (!keep(to_.all[i], joints_[i])) fill(to_.all[i], joints_[i]);
             share(i);
+            for (const std::uint32_t k : joints_[i]) to_.home[k] = i;
         }
     }
 
@@ -99,17 +100,52 @@ class Assembly {
             m.parts.back().inverse_inertia = bodies_.inverse_inertia[row];
         return place;
     }
+    /// Takes over one of the last assembly that has these very joints, if they and its bodies are as they were. Whether
+    /// a chain between two that are held is taut depends on where these are.
+    bool keep(Mechanism& m, const std::vector<std::uint32_t>& joints) {
+        const std::uint32_t home = to_.home[joints.front()];
+        if (home == no_index || !before_[home].is_ordered || before_[home].members.size() != joints.size()) return false;
+        Mechanism& old = before_[home];
+        const auto ground = static_cast<std::uint32_t>(bodies_.size()),
+                   ground_before = static_cast<std::uint32_t>(to_.holds.size());
+        const auto now = [&](std::uint32_t part) {
+            const std::uint32_t row = old.parts[part].row;
+            return row == ground_before ? ground : row;
+        };
+        std::size_t held = 0;
+        for (std::size_t i = 0; i < joints.size(); ++i) {
+            const Member& member = old.members[i];
+            const auto [a, b] = rows_of(to_.joints[joints[i]], bodies_);
+            if (to_.home[joints[i]] != home || now(member.a) != a || now(member.b) != b) return false;
+            held += member.outside;
+        }
+        if (held > 1) return false;
+        for (std::uint32_t p = 0; p < old.parts.size(); ++p) {
+            const std::uint32_t row = now(p);
+            const double inverse_mass = row < ground ? bodies_.inverse_mass[row] : 0,
+                         inverse_inertia = row < ground ? bodies_.inverse_inertia[row] : 0;
+            if (old.parts[p].inverse_mass != inverse_mass || old.parts[p].inverse_inertia != inverse_inertia)
+                return false;
+        }
+        for (std::uint32_t p = 0; p < old.parts.size(); ++p) old.parts[p].row = now(p);
+        m = std::move(old);
+        for (std::size_t i = 0; i < joints.size(); ++i) m.members[i].joint = joints[i];
+        m.is_asleep = m.is_touched = m.is_carried = false, m.may_have_moved = true;
+        return true;
+    }
     /// What the mechanisms of a crowd have in common is kept once: they are many more than fit into a cache.
     void share(std::uint32_t i) {
         Mechanism& m = to_.all[i];
-        const auto of_one_before = [&](auto own, auto Mechanism::*common) {
-            const bool is_equal = i > 0 && own == *(to_.all[i - 1].*common);
-            m.*common = is_equal ? to_.all[i - 1].*common : std::make_shared<decltype(own)>(std::move(own));
-            return is_equal;
+        const auto with_one_before = [&](auto Mechanism::*common) {
+            if (i == 0) return false;
+            const auto& other = to_.all[i - 1].*common;
+            if (m.*common != other && *(m.*common) != *other) return false;
+            m.*common = other;
+            return true;
         };
-        m.kind = of_one_before(std::move(shape_), &Mechanism::shape) ? to_.all[i - 1].kind : i;
-        of_one_before(std::move(laws_), &Mechanism::laws);
-        for (std::size_t k = 0; k < m.lines.size(); ++k) m.lines[k].law = &(*m.laws)[k];
+        m.kind = with_one_before(&Mechanism::shape) ? to_.all[i - 1].kind : i;
+        if (with_one_before(&Mechanism::laws) || m.lines.front().law != m.laws->data())
+            for (std::size_t k = 0; k < m.lines.size(); ++k) m.lines[k].law = &(*m.laws)[k];
     }
     void fill(Mechanism& m, const std::vector<std::uint32_t>& joints) {
         shape_ = {}, laws_.clear();
@@ -169,6 +205,8 @@ class Assembly {
         m.is_redundant = rigid_rows(m) > ways_to_move(m);
         m.has_loops = !m.is_redundant && has_loops(m);
         for (const Mechanism::Part& p : m.parts) place_[p.row] = no_index;
+        m.shape = std::make_shared<Mechanism::Shape>(std::move(shape_));
+        m.laws = std::make_shared<std::vector<Law>>(std::move(laws_));
     }
     /// Rows as they are after the drift.
     void leave_out_springs() {

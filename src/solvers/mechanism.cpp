@@ -69,13 +69,19 @@ Scratch<std::uint32_t> Holders::of(BodyId id, const std::vector<Joint>& joints) 
 
 void add(Mechanisms& mechanisms, JointId id, const Joint& joint) {
     mechanisms.joints.push_back(joint), mechanisms.ids.push_back(id), mechanisms.memory.push_back({.id = id});
+    mechanisms.home.push_back(no_mechanism);
     mechanisms.holders.forget();
 }
 
 void erase(Mechanisms& mechanisms, std::size_t joint) {
     mechanisms.holders.forget();
     const auto from = [joint](auto& list) { list.erase(list.begin() + static_cast<std::ptrdiff_t>(joint)); };
-    from(mechanisms.joints), from(mechanisms.ids), from(mechanisms.memory);
+    from(mechanisms.joints), from(mechanisms.ids), from(mechanisms.memory), from(mechanisms.home);
+}
+
+void note_change(Mechanisms& mechanisms, std::size_t joint) {
+    mechanisms.home[joint] = no_mechanism;
+    mechanisms.holders.forget();
 }
 
 void forget_removed(Mechanisms& mechanisms, const Bodies& bodies) {
@@ -87,6 +93,7 @@ void forget_removed(Mechanisms& mechanisms, const Bodies& bodies) {
     for (const Joint& joint : mechanisms.joints) wanted.push_back(is_held(joint));
     mechanisms.holders.forget();
     keep(mechanisms.joints, wanted), keep(mechanisms.ids, wanted), keep(mechanisms.memory, wanted);
+    keep(mechanisms.home, wanted);
 }
 
 void keep_remembered(Mechanisms& mechanisms, std::vector<NumberedJoint> brought) {
@@ -107,6 +114,7 @@ void keep_remembered(Mechanisms& mechanisms, std::vector<NumberedJoint> brought)
         ids.push_back(own.id);
     }
     mechanisms.ids = std::move(ids), mechanisms.joints = std::move(joints);
+    mechanisms.home.assign(mechanisms.joints.size(), no_mechanism);  // what they did is another state's
     mechanisms.holders.forget();
 }
 

@@ -181,14 +181,17 @@ class Holders {
     std::vector<std::uint32_t> end_;     ///< of these, an index later
 };
 
+inline constexpr std::uint32_t no_mechanism = 0xffffffff;
+
 /// All joints of a world, as its solver sees them.
 struct Mechanisms {
     std::vector<Joint> joints;
     std::vector<JointId> ids;              ///< of each joint, ascending
     std::vector<JointMemory> memory;       ///< of each joint
+    std::vector<std::uint32_t> home;       ///< of each joint, in which of all it is as it is now; `no_mechanism` if in none
     std::vector<std::uint32_t> breakable;  ///< those that break, ascending
     double cuts = 0;                       ///< in how many parts a second was cut of late; see cut_by_turns()
-    std::vector<Mechanism> all;            ///< made anew when anything is edited
+    std::vector<Mechanism> all;            ///< those that an edit concerns are made anew by the next assembly
     std::vector<bool> holds;               ///< by row of the bodies
     std::vector<unsigned char>
         carries;  ///< by row: those of mechanisms that are carried, until contacts are looked for
@@ -211,6 +214,8 @@ void bend(Vec2 gravity, Mechanism&);
 void order_awake(Mechanisms&);
 void add(Mechanisms&, JointId, const Joint&);
 void erase(Mechanisms&, std::size_t joint);
+/// To be called when a joint is changed.
+void note_change(Mechanisms&, std::size_t joint);
 /// Drops the joints of bodies that are gone.
 void forget_removed(Mechanisms&, const Bodies&);
 using NumberedJoint = std::pair<JointId, Joint>;

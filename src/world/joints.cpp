@@ -107,7 +107,8 @@ void World::State::move_anchors(BodyId id, Vec2 by) {
         if (held.a == id) held.anchor_a += by;
         if (held.b == id) held.anchor_b += by;
     };
-    for (const std::uint32_t k : mechanisms.holders.of(id, mechanisms.joints)) follow(mechanisms.joints[k]);
+    for (const std::uint32_t k : mechanisms.holders.of(id, mechanisms.joints))
+        follow(mechanisms.joints[k]), note_change(mechanisms, k);
     for (std::size_t i = 0; i < forces.springs.size(); ++i) follow(forces.springs[i]);
     for (std::size_t i = 0; i < forces.constant_forces.size(); ++i)
         if (forces.constant_forces[i].body == id) forces.constant_forces[i].point += by;
@@ -238,7 +239,7 @@ void World::set(JointId id, const Joint& joint) {
     stir_held(now, s.bodies, s.soft_contacts), stir_held(made, s.bodies, s.soft_contacts);
     if (!have_like_rows(now, made)) s.mechanisms.memory[k] = {.id = id};
     now = made;
-    s.mechanisms.holders.forget();
+    note_change(s.mechanisms, k);
 }
 
 std::span<const Joint> World::joints() const { return state_->current_joints(); }
