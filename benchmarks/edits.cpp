@@ -1,6 +1,6 @@
 // What it costs to change something between two steps, as a game does in most of them: microseconds of a step with the
-// edit before it, the median of 200, in a level of fixed tiles with crates that sleep and a car that drives on.
-// Arguments: [TILES] [CRATES], by default the worlds of docs/performance.md.
+// edit before it, the median of 200, in a level of fixed tiles with crates that sleep, chains of ten that swing, and a
+// car that drives on. Arguments: [TILES] [CRATES] [CHAINS], by default the worlds of docs/performance.md.
 
 #include <algorithm>
 #include <carom/carom.hpp>
@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <optional>
 #include <vector>
 
 using namespace carom;
@@ -23,7 +24,7 @@ struct Level {
     JointId wheel;
     ForceId<ConstantForce> thrust;
 
-    Level(int tiles, int count) {
+    Level(int tiles, int count, int chains) {
         for (int i = 0; i < tiles; ++i) {
             const Vec2 at{i % 500 + 0.5, -0.5 - i / 500};
             world.add(Body{.kind = Kind::fixed,
@@ -33,6 +34,7 @@ struct Level {
                            .friction = 0.6});
         }
         for (int i = 0; i < count; ++i) crates.push_back(world.add(part({40.0 + 2 * (i / 2), 0.5 + i % 2}, Box{1, 1})));
+        for (int k = 0; k < chains; ++k) add_chain({40.0 * (k % 10), 30.0 + 20 * (k / 10)});
         car = world.add(part({5, 1}, Box{2, 0.5}));
         for (const double x : {4.2, 5.8}) {
             const BodyId rim = world.add(part({x, 0.4}, Disc{{}, 0.4}));
@@ -45,6 +47,14 @@ struct Level {
         lift = world.add(Body{.kind = Kind::driven, .position = {20, 20}, .shapes = {{.geometry = Box{}}}});
         thrust = world.add(ConstantForce{.body = car, .force = {0.1, 0}});
         run(world, 1, dt);
+    }
+    void add_chain(Vec2 at) {
+        std::optional<BodyId> last;
+        for (int i = 0; i < 10; ++i) {
+            const BodyId next = world.add(part(at + Vec2{i + 0.5, 0}, Box{0.8, 0.2}));
+            world.add(Joint{.a = last, .b = next, .at = at + Vec2{1.0 * i, 0}, .type = RevoluteJoint{}});
+            last = next;
+        }
     }
     static Body part(Vec2 at, const Geometry& geometry) {
         return {.position = at, .shapes = {{.geometry = geometry, .density = 1}}, .restitution = 0, .friction = 0.6};
@@ -108,10 +118,14 @@ const Edit edits[] = {{"nothing", [](Level&, int) {}},
                            l.world.apply_impulse(crate, {0.1, 0}, l.world.position(crate));
                        }}};
 
-double median_time(const Edit& edit, int tiles, int crates) {
+struct Size {
+    int tiles, crates, chains;
+};
+
+double median_time(const Edit& edit, const Size& size) {
     using Clock = std::chrono::steady_clock;
     constexpr int steps = 200;
-    Level level(tiles, crates);
+    Level level(size.tiles, size.crates, size.chains);
     std::vector<double> times;
     for (int step = 0; step < steps; ++step) {
         const auto start = Clock::now();
@@ -126,15 +140,17 @@ double median_time(const Edit& edit, int tiles, int crates) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::vector<std::pair<int, int>> worlds{{200, 50}, {2000, 500}, {10000, 0}};
-    if (argc > 1) worlds = {{std::atoi(argv[1]), argc > 2 ? std::atoi(argv[2]) : 0}};
+    std::vector<Size> worlds{{200, 50, 0}, {2000, 500, 0}, {10000, 0, 0}, {200, 0, 100}};
+    const auto given = [&](int k) { return argc > k ? std::atoi(argv[k]) : 0; };
+    if (argc > 1) worlds = {{given(1), given(2), given(3)}};
     std::printf("| changed |");
-    for (const auto& [tiles, crates] : worlds) std::printf(" %d tiles, %d crates |", tiles, crates);
+    for (const auto& [tiles, crates, chains] : worlds)
+        std::printf(" %d tiles, %d crates, %d chains |", tiles, crates, chains);
     std::printf("\n|---|");
     for (std::size_t i = 0; i < worlds.size(); ++i) std::printf("---|");
     for (const Edit& edit : edits) {
         std::printf("\n| %s |", edit.name);
-        for (const auto& [tiles, crates] : worlds) std::printf(" %.0f |", median_time(edit, tiles, crates));
+        for (const Size& size : worlds) std::printf(" %.0f |", median_time(edit, size));
         std::fflush(stdout);
     }
     std::printf("\n");

@@ -104,8 +104,10 @@ class Assembly {
     /// a chain between two that are held is taut depends on where these are.
     bool keep(Mechanism& m, const std::vector<std::uint32_t>& joints) {
         const std::uint32_t home = to_.home[joints.front()];
-        if (home == no_index || !before_[home].is_ordered || before_[home].members.size() != joints.size()) return false;
+        if (home == no_index) return false;
         Mechanism& old = before_[home];
+        const bool takes_order = !old.is_ordered && &m != to_.all.data() && (&m)[-1].is_ordered;
+        if (takes_order || old.members.size() != joints.size()) return false;
         const auto ground = static_cast<std::uint32_t>(bodies_.size()),
                    ground_before = static_cast<std::uint32_t>(to_.holds.size());
         const auto now = [&](std::uint32_t part) {
