@@ -1,4 +1,5 @@
-// A spring between the anchors, as two rows: C = p_b − p_a. The largest force bounds them as a whole.
+// A spring between the anchors, as two rows that turn with a: C = n·(p_b − p_a). What damps it acts at b's anchor on
+// both, and so makes no spin. The largest force bounds them as a whole.
 
 #include "joints/rows.hpp"
 
@@ -12,7 +13,8 @@ std::size_t laws_of(const DragHandle& j, Law* law) {
 }
 
 double rows_of(const DragHandle&, const Ends& ends, JointRow* row) {
-    pinned(ends, row);
+    *row++ = along_own(ends.a.turn({1, 0}), ends);
+    *row++ = along_own(ends.a.turn({0, 1}), ends);
     return length(ends.between);
 }
 

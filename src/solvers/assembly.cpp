@@ -197,10 +197,7 @@ class Assembly {
             widest = std::max(widest, count);
         }
         shape_.widest = static_cast<std::uint32_t>(widest);
-        for (Member& member : m.members) {
-            if (member.size == 0) member.size = m.size > 0 ? m.size : 1;
-            member.per_size = 1 / member.size;
-        }
+        size_points(m);
         couple(m);
         loosen(bodies_, places_, to_.joints, shape_, m);
         if (m.is_hinged) leave_out_springs();
@@ -209,6 +206,13 @@ class Assembly {
         for (const Mechanism::Part& p : m.parts) place_[p.row] = no_index;
         m.shape = std::make_shared<Mechanism::Shape>(std::move(shape_));
         m.laws = std::make_shared<std::vector<Law>>(std::move(laws_));
+    }
+    /// Of joints between points, which have no size of their own.
+    static void size_points(Mechanism& m) {
+        for (Member& member : m.members) {
+            if (member.size == 0) member.size = m.size > 0 ? m.size : 1;
+            member.per_size = 1 / member.size;
+        }
     }
     /// Rows as they are after the drift.
     void leave_out_springs() {

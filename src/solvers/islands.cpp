@@ -222,6 +222,28 @@ Island* PreciseIslands::one_for(const SoftScene& scene, const SoftContact& c) {
     return &*first;
 }
 
+Scratch<double> velocities_at_rest(const Island& island, const PreciseIslands& islands, const SoftContacts& contacts) {
+    Scratch<double> v(3 * island.bodies.size(), 0.0);
+    std::uint32_t holder = no_place;
+    const auto& movers = contacts.motion.movers;
+    const auto moves_with_others = [&](std::uint32_t row) {
+        if (holder == no_place) holder = row;
+        const Mover &m = movers[row], &other = movers[holder];
+        return row == holder || (m.vx == other.vx && m.vy == other.vy && m.w == 0 && other.w == 0);
+    };
+    for (const std::uint32_t index : island.contacts)
+        for (const std::uint32_t row : {contacts.all[index].a, contacts.all[index].b})
+            if (islands.place_of(row) == no_place && !moves_with_others(row)) return v;
+    if (holder == no_place) return v;
+    const Mover& m = movers[holder];
+    for (std::size_t i = 0; i < island.bodies.size(); ++i) {
+        const Vec2 from = contacts.motion.frames[island.bodies[i]].position - contacts.motion.frames[holder].position;
+        const Vec2 along = Vec2{m.vx, m.vy} + cross(m.w, from);
+        v[3 * i] = along.x, v[3 * i + 1] = along.y, v[3 * i + 2] = m.w;
+    }
+    return v;
+}
+
 void take_precisely(const SoftScene& scene, std::size_t from, PreciseIslands& islands, SoftContacts& contacts) {
     bool takes = false;
     for (std::size_t i = from; i < contacts.all.size(); ++i)

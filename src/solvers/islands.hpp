@@ -16,7 +16,8 @@ struct Island {
     Scratch<std::uint32_t> bodies, contacts;
     Scratch<std::uint32_t> mechanisms;  ///< that hold some of them
     BlockMatrix<3> matrix;
-    double fastest = 0;      ///< speed of its bodies in this step, if contacts did not hold them, along an axis [m/s]
+    double fastest = 0;      ///< speed of its bodies in this step, as what holds them sees it, if contacts did not hold
+                             ///< them, along an axis [m/s]
     bool asked = false;      ///< to be solved whatever it costs
     bool uneven = false;     ///< sweeps do not cope with it: bodies of different mass, or thin ones
     bool took_long = false;  ///< an interior point was needed in this step, and for no rest
@@ -92,6 +93,9 @@ inline Mover without_contacts(const Island& island, const std::vector<Mover>& fr
     m.vx += v.x, m.vy += v.y, m.w += w;
     return m;
 }
+
+/// The velocities of bodies that rest on what holds their island, three numbers each: none, unless that moves as one.
+Scratch<double> velocities_at_rest(const Island&, const PreciseIslands&, const SoftContacts&);
 
 /// Notes which blocks sweeps are to leave alone.
 void note_precise(const PreciseIslands&, SoftContacts&);

@@ -186,9 +186,9 @@ inline constexpr std::uint32_t no_mechanism = 0xffffffff;
 /// All joints of a world, as its solver sees them.
 struct Mechanisms {
     std::vector<Joint> joints;
-    std::vector<JointId> ids;              ///< of each joint, ascending
-    std::vector<JointMemory> memory;       ///< of each joint
-    std::vector<std::uint32_t> home;       ///< of each joint, in which of all it is as it is now; `no_mechanism` if in none
+    std::vector<JointId> ids;         ///< of each joint, ascending
+    std::vector<JointMemory> memory;  ///< of each joint
+    std::vector<std::uint32_t> home;  ///< of each joint, in which of all it is as it is now; `no_mechanism` if in none
     std::vector<std::uint32_t> breakable;  ///< those that break, ascending
     double cuts = 0;                       ///< in how many parts a second was cut of late; see cut_by_turns()
     std::vector<Mechanism> all;            ///< those that an edit concerns are made anew by the next assembly

@@ -26,12 +26,17 @@ class Newton {
   public:
     Newton(Island& island, const PreciseIslands& islands, const SoftScene& scene, const std::vector<Mover>& free,
            const Aim& aim, SoftContacts& contacts)
-        : island_(island), bodies_(scene.bodies, island.bodies), v_(bodies_.size()), next_(bodies_.size()) {
+        : island_(island),
+          bodies_(scene.bodies, island.bodies),
+          at_rest_(velocities_at_rest(island, islands, contacts)),
+          v_(bodies_.size()),
+          next_(bodies_.size()) {
         for (std::size_t i = 0; i < island.bodies.size(); ++i) {
             const Mover m = without_contacts(island, free, contacts, island.bodies[i]);
             double* v = &bodies_.free[3 * i];
             v[0] = m.vx, v[1] = m.vy, v[2] = m.w;
-            island.fastest = std::max({island.fastest, std::abs(m.vx), std::abs(m.vy)});
+            const double* ground = &at_rest_[3 * i];
+            island.fastest = std::max({island.fastest, std::abs(m.vx - ground[0]), std::abs(m.vy - ground[1])});
         }
         for (const std::uint32_t k : island.mechanisms)
             for (const Mechanism::Part& p : scene.mechanisms.all[k].parts)
@@ -220,10 +225,16 @@ class Newton {
         return true;
     }
 
-    /// Whether the contacts leave little of the velocities without them.
+    /// Whether the contacts leave little of the velocities without them, as what holds the island sees it.
     bool is_slow() const {
         constexpr double little_left = 0.05;
-        return bodies_.fastest(v_) <= little_left * bodies_.fastest(bodies_.free);
+        return fastest(v_) <= little_left * fastest(bodies_.free);
+    }
+    double fastest(const Scratch<double>& v) const {
+        double most = 0;
+        for (std::size_t i = 0; i < v.size(); ++i)
+            if (i % 3 != 2) most = std::max(most, std::abs(v[i] - at_rest_[i]));
+        return most;
     }
 
     /// Newton's method, with bounds of friction that follow to rounding. False where it is not balanced by Coulomb's
@@ -447,6 +458,7 @@ class Newton {
     Island& island_;
     double heaviest_ = 0;  ///< of its bodies [kg]
     IslandBodies bodies_;
+    Scratch<double> at_rest_;   ///< velocities of what rests on what holds it
     Scratch<double> unbound_;   ///< velocities without contacts, whatever joints make of it
     Scratch<double> v_, next_;  ///< three numbers a body
     Scratch<Point> points_;

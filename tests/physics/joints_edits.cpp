@@ -1,5 +1,5 @@
-// Mechanisms that an edit does not concern stay as they were made. That changes nothing: who is restored after each edit
-// has all made anew, and goes on with the same bits.
+// Mechanisms that an edit does not concern stay as they were made. That changes nothing: who is restored after each
+// edit has all made anew, and goes on with the same bits.
 
 #include "choices.hpp"
 #include "joints.hpp"
@@ -25,19 +25,38 @@ class EditedMechanisms {
     }
     void edit() {
         switch (any_.below(11)) {
-            case 0: world.add(loose()); break;
-            case 1: add_group(any_.between(-5, 25)); break;
-            case 2: world.remove(one_of(world.ids())); break;
+            case 0:
+                world.add(loose());
+                break;
+            case 1:
+                add_group(any_.between(-5, 25));
+                break;
+            case 2:
+                world.remove(one_of(world.ids()));
+                break;
             case 3:
                 if (!world.joints().empty()) world.remove(one_of(world.joint_ids()));
                 break;
-            case 4: join(one_of(world.ids()), one_of(world.ids())); break;
-            case 5: set_joint(); break;
-            case 6: change_body([&](Body& b) { b.mass *= any_.between(0.5, 2); }); break;
-            case 7: change_body([&](Body& b) { b.radius = 0, b.shapes = {{.geometry = Disc{{0.1, 0.05}, 0.2}}}; }); break;
-            case 8: change_body([&](Body& b) { b.position.x += 0.01; }); break;
-            case 9: world.configure({.gravity = {any_.between(-1, 1), -gravity}, .solver = SoftStep{}}); break;
-            default: world.add(ConstantForce{.body = one_of(world.ids()), .force = {any_.between(-2, 2), 0}});
+            case 4:
+                join(one_of(world.ids()), one_of(world.ids()));
+                break;
+            case 5:
+                set_joint();
+                break;
+            case 6:
+                change_body([&](Body& b) { b.mass *= any_.between(0.5, 2); });
+                break;
+            case 7:
+                change_body([&](Body& b) { b.radius = 0, b.shapes = {{.geometry = Disc{{0.1, 0.05}, 0.2}}}; });
+                break;
+            case 8:
+                change_body([&](Body& b) { b.position.x += 0.01; });
+                break;
+            case 9:
+                world.configure({.gravity = {any_.between(-1, 1), -gravity}, .solver = SoftStep{}});
+                break;
+            default:
+                world.add(ConstantForce{.body = one_of(world.ids()), .force = {any_.between(-2, 2), 0}});
         }
     }
     int steps() { return any_.below(4); }

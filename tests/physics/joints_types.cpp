@@ -400,5 +400,25 @@ TEST(Handle, AtItsLargestForceLeavesItsMechanismItsMotion) {
     }
 }
 
+// Its damping acted at either body's own anchor, and turned the pair: 6 % of their angular momentum in a second, at
+// every step.
+TEST(Handle, BetweenTwoBodiesMakesNoSpin) {
+    for (const double damping : {0.0, 1.9}) {
+        World world = mechanism_world({}, {});
+        const BodyId stick =
+            world.add(Body{.angular_velocity = -2.7, .shapes = {{.geometry = Capsule{{-0.4, 0}, {0.4, 0}, 0.15}}}});
+        const BodyId ball = world.add(Body{.position = {1.46, 0}, .radius = 0.4});
+        world.add(Joint{.a = stick,
+                        .b = ball,
+                        .at = Vec2{0.78, 0.02},
+                        .type = DragHandle{.spring = JointSpring{.stiffness = 4, .damping = damping}}});
+        const double before = momentum_balance(world).total.angular;
+        run(world, 2, frame);
+        EXPECT_NEAR(momentum_balance(world).total.angular, before, 1e-13);  // rounding
+        EXPECT_GE(length(world.velocity(ball)), 0.1);                       // it pulled
+        EXPECT_LE(std::abs(energy(world).residual), 1e-4);                  // of second order
+    }
+}
+
 }  // namespace
 }  // namespace carom

@@ -1,5 +1,5 @@
-// A body thrown into a world of a thousand ragdolls made a step twice as long, as did a force, or a joint that keeps two
-// from colliding: all mechanisms were made anew, though none of them had changed.
+// A body thrown into a world of a thousand ragdolls made a step twice as long, as did a force, or a joint that keeps
+// two from colliding: all mechanisms were made anew, though none of them had changed.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,9 @@ class Chains : public testing::Test {
         made();
     }
     BodyId add_body(double x) { return bodies.add({.position = {x, 0}, .moment_of_inertia = 1}, state); }
-    void join(BodyId a, BodyId b) { add(mechanisms, JointId{++joints}, {.a = a, .b = b, .anchor_a = {1, 0}, .type = RevoluteJoint{}}); }
+    void join(BodyId a, BodyId b) {
+        add(mechanisms, JointId{++joints}, {.a = a, .b = b, .anchor_a = {1, 0}, .type = RevoluteJoint{}});
+    }
     /// How many of the chains lie where they lay in memory, after the next assembly.
     std::ptrdiff_t made() {
         const std::vector<Mechanism>& all = mechanisms.all;
