@@ -27,6 +27,7 @@ Amount amount_of(const Fill& f) {
     return {f.count ? *f.count : covered / (3.14 * mean_square), 0, !f.body.name.empty()};
 }
 Amount amount_of(const Gas& g) { return amount_of(g.fill); }
+Amount amount_of(const TrackExpression& t) { return {double(t.segments), 0, false}; }  // as many pieces
 
 /// A builder that draws random numbers and names no seed of its own takes one of the scene's.
 int* seed_of(Fill& f) { return &f.seed; }
@@ -68,6 +69,44 @@ void check_mass(const Reader& reader, const Json& body, const Place& place, std:
                                    shown(body["mass"])));
 }
 
+namespace {
+
+/// What a builder builds, once its expressions are known.
+template <class T>
+const T& ready(const T& builder, const Reader&, const Place&) {
+    return builder;
+}
+Body ready(const TrackExpression& track, const Reader& reader, const Place& place) {
+    const auto coordinate = [&](const std::string& text, const char* field) {
+        const Place own = place / std::string(field);
+        return [&, own, f = function_of(text, own, {"s"}, reader.names())](double s) {
+            const double value = f(s);
+            if (std::isfinite(value)) return value;
+            throw own.expected(
+                "a finite number in m all along", text,
+                fmt::format("it is {} at s = {}", std::isnan(value) ? "no number" : fmt::format("{}", value), s));
+        };
+    };
+    const auto x = coordinate(track.x, "x"), y = coordinate(track.y, "y");
+    Chain chain{.points = {}, .closed = track.closed};
+    for (int k = 0; k < track.segments + !track.closed; ++k) {
+        const double part = double(k) / track.segments, s = (1 - part) * track.from + part * track.to;
+        const Vec2 next{x(s), y(s)};
+        if (k > 0 && next == chain.points.back())
+            throw place.error(
+                fmt::format("must lead on, and does not before s = {}: it is at ({}, {}) m again", s, next.x, next.y));
+        chain.points.push_back(next);
+    }
+    Body body = track.body;
+    if (body.kind == Kind::dynamic) body.kind = Kind::fixed;
+    body.shapes.push_back({.geometry = std::move(chain)});
+    return body;
+}
+
+void build(World& world, const Body& body) { world.add(body); }
+
+}  // namespace
+
 void build_all(World& world, const Reader& reader, const Json& root, const Place& top, int seed) {
     std::uint64_t drawn = 0;
     for_each_item(root, top, "builders", [&](const Json& item, const Place& place) {
@@ -75,8 +114,9 @@ void build_all(World& world, const Reader& reader, const Json& root, const Place
             require_memory_for(amount_of(builder), place);
             if (int* own = seed_of(builder); own && !names_seed(item)) *own = nth_seed(seed, drawn++);
             const std::size_t before = world.size();
+            const auto& all = ready(builder, reader, at);
             try {
-                build(world, builder);
+                build(world, all);
             } catch (const Error& e) {
                 const bool of_body = std::string_view(e.what()).starts_with("Body");
                 throw at_field(of_body ? place_of_body(item, at) : at, e.what());

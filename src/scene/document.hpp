@@ -2,6 +2,7 @@
 #include <carom/scene.hpp>
 #include <span>
 
+#include "scene/expression.hpp"
 #include "scene/json.hpp"
 #include "scene/reader.hpp"
 
@@ -33,6 +34,9 @@ Json& find_place(Json& root, const std::string& path, const Place& top);
 void check_mass(const Reader& reader, const Json& body, const Place& place, std::span<const double> made);
 
 /// Runs the scene's builders.
+/// A function written in a field.
+Function function_of(const std::string& text, const Place& place, const std::vector<std::string>& variables,
+                     const Names& names);
 void build_all(World& world, const Reader& reader, const Json& root, const Place& top, int seed);
 
 }  // namespace carom

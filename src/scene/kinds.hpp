@@ -45,6 +45,29 @@ constexpr auto fields(const T*) {
         field("angle", &T::angle, "its angle in rad; if absent as it was placed")};
 }
 
+/// A curve written as expressions; becomes a body that is a chain.
+struct TrackExpression {
+    Body body{};
+    std::string x = "s", y = "0";
+    double from = 0, to = 1;
+    int segments = 200;
+    bool closed = false;
+};
+constexpr std::string_view describe(const TrackExpression*) {
+    return "A curve as a chain of lines: a slope, a bowl, a loop.";
+}
+template <std::same_as<TrackExpression> T>
+constexpr auto fields(const T*) {
+    return std::tuple{
+        field("body", &T::body, "everything else about it; it is fixed unless it is driven"),
+        field("x", &T::x, "its x in m in the frame of the body, an expression of s and the parameters"),
+        field("y", &T::y, "its y in m; where it goes from left to right, what lies above it is on the free side"),
+        field("from", &T::from, "", any, "s where it begins"),
+        field("to", &T::to, "", any, "s where it ends"),
+        field("segments", &T::segments, "", built_count, "number of lines, at equal steps of s"),
+        field("closed", &T::closed, "whether its end is its beginning, and is not made twice")};
+}
+
 /// What a document may have at its top.
 struct TopKey {
     enum class Shape { version, text, seed, object, list } shape;
@@ -79,9 +102,9 @@ struct Type {
 
 inline constexpr std::tuple wall_types{Type<Rectangle>{"rectangle"}, Type<HalfPlane>{"half-plane"},
                                        Type<Stadium>{"stadium"}, Type<Periodic>{"periodic"}};
-inline constexpr std::tuple builder_types{Type<Rope>{"rope"},   Type<Lattice>{"lattice"},
-                                          Type<GridOf>{"grid"}, Type<Fill>{"fill"},
-                                          Type<Gas>{"gas"},     Type<NotebookGas>{"notebook-gas"}};
+inline constexpr std::tuple builder_types{
+    Type<Rope>{"rope"}, Type<Lattice>{"lattice"},          Type<GridOf>{"grid"},          Type<Fill>{"fill"},
+    Type<Gas>{"gas"},   Type<NotebookGas>{"notebook-gas"}, Type<TrackExpression>{"track"}};
 inline constexpr std::tuple force_types{
     Type<Spring>{"spring"},         Type<TorsionSpring>{"torsion-spring"}, Type<Drag>{"drag"},
     Type<Attraction>{"attraction"}, Type<SoftDiscs>{"soft-discs"},         Type<ConstantForce>{"constant"},

@@ -27,6 +27,7 @@ constexpr bool is_required(const Field<S, M>& f) {
 class Reader {
   public:
     explicit Reader(const Names& names) : names_(names) {}
+    const Names& names() const { return names_; }
 
     /// Fills a described struct from an object; a key that is no field is an error with the nearest name.
     /// `also` are keys that the caller reads itself.

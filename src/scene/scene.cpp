@@ -177,9 +177,6 @@ void Scene::Document::check_times(double end) const {
     }
 }
 
-namespace {
-
-/// A function written in a field of a force.
 Function function_of(const std::string& text, const Place& place, const std::vector<std::string>& variables,
                      const Names& names) {
     try {
@@ -189,6 +186,8 @@ Function function_of(const std::string& text, const Place& place, const std::vec
                              e.what());
     }
 }
+
+namespace {
 
 /// A force that is no number where a body starts would be said of the body alone, after the first step, and a potential
 /// after the last.
