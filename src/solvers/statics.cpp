@@ -11,11 +11,10 @@ namespace carom {
 namespace {
 constexpr double rounding = 1e-12, finest = 1e-14;
 
-/// What is left of a force that is more than allowed, and of the spring that bears it, for it to bear somewhat less the
-/// next time: a secant.
-double eased(double force, double allowed) {
-    constexpr double somewhat = 0.8;
-    return std::abs(force) > allowed ? std::max(somewhat * allowed / std::abs(force), rounding) : 1;
+/// What is left of a force that is more than allowed, and of the spring that bears it, for it to bear this part of that
+/// the next time: a secant.
+double eased(double force, double allowed, double part) {
+    return std::abs(force) > allowed ? std::max(part * allowed / std::abs(force), rounding) : 1;
 }
 }  // namespace
 
@@ -169,8 +168,8 @@ void Statics::each_stop(Act act) {
 }
 
 bool Statics::find_forces() {
-    constexpr int most_rounds = 60, most_in_vain = 15, patience = 2, some = 2, many = 30;
-    constexpr double collapses = 1e-3, hardly_less = 0.5;
+    constexpr int most_rounds = 60, most_in_vain = 15, patience = 2, long_in_vain = 7, some = 2, many = 30;
+    constexpr double collapses = 1e-3, hardly_less = 0.5, somewhat = 0.8, nearer = 0.7;
     Scratch<double> accelerations = sizes_;
     for (std::size_t k = 0; k < accelerations.size(); ++k) accelerations[k] /= bodies_.mass[k];
     fastest_ = fastest(accelerations);
@@ -180,7 +179,7 @@ bool Statics::find_forces() {
     // to another round. Where contacts open and close, by how much springs give way says who is in the way.
     constexpr double stiff = 1e6, very_stiff = 1e11;
     stiffness_ = very_stiff;
-    double part = 0.5;
+    double part = 0.5, bears = somewhat;
     const std::size_t all = supports_.size() + limits_.size() + ties_.size() + 1;
     std::size_t fewest = all;
     for (int i = 0, in_vain = 0; i < most_rounds && in_vain < most_in_vain; ++i) {
@@ -195,7 +194,9 @@ bool Statics::find_forces() {
             in_vain = 0, fewest = all;
             continue;
         }
-        const Given given = give_way(part, falls);
+        const Given given = give_way(part, falls, bears);
+        // Where many have to bear nearly what they can, none may bear much less.
+        bears = in_vain > long_in_vain ? 1 - nearer * (1 - bears) : somewhat;
         const bool is_soft = !given.way && !falls && stiffness_ < very_stiff;  // and nothing else is in the way
         if (!is_soft && (!given.way || (falls && !given.closes))) return false;
         stiffness_ = is_soft || supports_.empty() ? very_stiff : stiff;
@@ -328,7 +329,7 @@ bool Statics::close_all() {
 
 /// Gives way where one of a contact's points bears more than it can; whether one does. Both rub along one line, and
 /// what they do to the bodies is their sum, of which each bears a part as it is pressed.
-bool Statics::ease(const Scratch<Support*>& points, Prop Support::*of) {
+bool Statics::ease(const Scratch<Support*>& points, Prop Support::*of, double bears) {
     double force = 0, stiffness = 0, before = 0, presses = 0;
     bool is_too_much = false;
     for (const Support* s : points) {
@@ -337,7 +338,7 @@ bool Statics::ease(const Scratch<Support*>& points, Prop Support::*of) {
         force += p.force, stiffness += p.stiffness, before += p.before, presses += s->bears();
     }
     if (!is_too_much) return false;
-    const double share = eased(force, (points[0]->*of).limit * presses) / presses;
+    const double share = eased(force, (points[0]->*of).limit * presses, bears) / presses;
     for (Support* s : points) {
         Prop& p = s->*of;
         p.stiffness = share * s->bears() * stiffness, p.before = share * s->bears() * before;
@@ -348,7 +349,7 @@ bool Statics::ease(const Scratch<Support*>& points, Prop Support::*of) {
 /// Points that pull open, those that bodies go into where the springs give way close, and who bears more than he can
 /// gives way. Of what pulls or closes the most goes first: with it much of the rest is over. Who has opened so often
 /// closes only where all falls without.
-Statics::Given Statics::give_way(double part, bool falls) {
+Statics::Given Statics::give_way(double part, bool falls, double bears) {
     constexpr int often = 3;
     const double no_way = rounding * fastest(bent_);
     double most_pull = 0, most_near = 0;
@@ -383,12 +384,12 @@ Statics::Given Statics::give_way(double part, bool falls) {
             for (Prop* p : {&s.slip, &s.roll}) p->force = p->before = 0;
         const bool is_last = i + 1 == supports_.size() || supports_[i + 1].contact != s.contact;
         if (is_last && !points.empty())
-            for (const auto of : {&Support::slip, &Support::roll}) given.way = ease(points, of) || given.way;
+            for (const auto of : {&Support::slip, &Support::roll}) given.way = ease(points, of, bears) || given.way;
     }
     for (Limit& l : limits_) goes_on(l);
     for (Tie& t : ties_)
         if (Prop& p = t.along; is_over(p, p.limit)) {
-            const double share = eased(p.force, p.limit);
+            const double share = eased(p.force, p.limit, bears);
             p.stiffness *= share, p.before *= share, given.way = true;
         }
     return given;

@@ -112,11 +112,11 @@ class Statics {
     bool pulls(const Stop&) const;
     std::size_t count_over() const;
     bool close_all();
-    static bool ease(const Scratch<Support*>& points, Prop Support::*of);
+    static bool ease(const Scratch<Support*>& points, Prop Support::*of, double bears);
     struct Given {
         bool way = false, closes = false;  ///< anything at all, and somebody closed
     };
-    Given give_way(double part, bool falls);
+    Given give_way(double part, bool falls, double bears);
 
     const SoftScene& scene_;
     const SoftContacts& contacts_;
