@@ -17,12 +17,10 @@ World box_of(Vec2 size, const Solver& solver) {
 
 World two_discs(const Solver& solver, Vec2 frame) {
     World world = box_of({1.2990389021304283, 0.64951946}, solver);
-    world.add(Body{.position = {0.62974, 0.61530},
-                   .velocity = Vec2{-0.037678, -0.900993} + frame,
-                   .radius = 0.12077491819738065});
-    world.add(Body{.position = {1.247781, 0.571671},
-                   .velocity = Vec2{1.124965, -0.868739} + frame,
-                   .radius = 0.2051790865935065});
+    world.add(Body{
+        .position = {0.62974, 0.61530}, .velocity = Vec2{-0.037678, -0.900993} + frame, .radius = 0.12077491819738065});
+    world.add(Body{
+        .position = {1.247781, 0.571671}, .velocity = Vec2{1.124965, -0.868739} + frame, .radius = 0.2051790865935065});
     return world;
 }
 
@@ -78,7 +76,8 @@ TEST(WrongImage, HasItsTorqueOnTheAccount) {
     world.add(Body{.position = {0.6, 1.6}, .velocity = {-1.3, 1.2}, .radius = 0.44});
     run(world, 1, 1);
     EXPECT_EQ(world.collisions(), 1u);
-    EXPECT_LT(std::abs(momentum_balance(world).unaccounted().angular), 1e-14);  // of 1.4 kg m²/s, some of it was missing
+    EXPECT_LT(std::abs(momentum_balance(world).unaccounted().angular),
+              1e-14);  // of 1.4 kg m²/s, some of it was missing
 }
 
 }  // namespace
