@@ -179,11 +179,9 @@ class FreeFlight {
         return std::find(discs.begin(), discs.end(), j) != discs.end();
     }
 
-    /// Body i was struck: no wall carries it any more, nor do discs, unless the blow was no harder than their weight in
-    /// this step: a pile that settles would wake itself for ever.
-    void wake(std::uint32_t i, double approach) {
-        support_[i].walls.clear();
-        if (approach <= h_ * length(free_.linear[i])) return;
+    /// Body i was struck, and no disc rests on it any more, if the blow was hard.
+    void wake(std::uint32_t i, const Bounce& blow) {
+        if (!ends_rest(blow.approach, length(free_.linear[i]), blow.size, h_)) return;
         for (const std::uint32_t j : support_[i].discs) std::erase(support_[j].discs, i);
         support_[i].discs.clear();
     }
@@ -193,9 +191,10 @@ class FreeFlight {
         const double approach = dot(state_.v.linear[i], touch.normal), pull = dot(free_.linear[i], touch.normal);
         const Bounce bounce{touch.restitution, approach, pull, 2 * bodies_.radius[i]};
         const double now = path_[i].start;
-        const bool rests = squeezed_.hold({i, i, w}, touch.normal, bounce, now, bodies_, state_, impacts_[i]) ||
-                           comes_to_rest(bounce, h_, impacts_[i]);
+        const bool jams = squeezed_.hold({i, i, w}, touch.normal, bounce, now, bodies_, state_, impacts_[i]);
+        const bool rests = jams || comes_to_rest(bounce, h_, impacts_[i]);
         if (rests) touch.restitution = 0;
+        if (!(rests && (jams || impacts_[i] > most_inelastic))) wake(i, bounce);
         if (approach > 0) carom::collide(i, touch, bodies_, state_);
         contacts_.collisions += approach > std::max(0.0, 1e-9 * h_ * pull);  // less is a touch of one at rest
         if (rests) {
@@ -203,7 +202,7 @@ class FreeFlight {
             support_[i].walls.push_back(w);
             come_to_corner(i, w);
         } else {
-            wake(i, approach);
+            support_[i].walls.clear();
         }
         depart(i, false);
         foresee(i, false);
@@ -263,8 +262,8 @@ class FreeFlight {
         const std::size_t impacts = std::min(impacts_[i], impacts_[j]);
         const Bounce bounce{touch.restitution, approach, pull, distance};
         const double now = path_[i].start;
-        const bool rests = squeezed_.hold(pair, touch.normal, bounce, now, bodies_, state_, impacts) ||
-                           comes_to_rest(bounce, h_, impacts);
+        const bool jams = squeezed_.hold(pair, touch.normal, bounce, now, bodies_, state_, impacts);
+        const bool rests = jams || comes_to_rest(bounce, h_, impacts);
         if (approach > 1e-9 * h_ * std::max(0.0, dot(a, touch.normal))) {
             if (rests)
                 bring_to_rest(pair, touch, walls_, bodies_, state_);
@@ -272,12 +271,13 @@ class FreeFlight {
                 carom::collide(i, j, touch, bodies_, state_);
             ++contacts_.collisions;
         }
+        for (const std::uint32_t k : {i, j}) {
+            support_[k].walls.clear();
+            if (!(rests && (jams || impacts > most_inelastic))) wake(k, bounce);
+        }
         if (rests) {
             support_[i].discs.push_back(j);
             support_[j].discs.push_back(i);
-            for (const std::uint32_t k : {i, j}) support_[k].walls.clear();
-        } else {
-            for (const std::uint32_t k : {i, j}) wake(k, approach);
         }
         for (const std::uint32_t k : {i, j}) depart(k, false);
         for (const std::uint32_t k : {i, j}) foresee(k, false);  // once both are on their new ways

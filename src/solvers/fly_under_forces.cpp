@@ -91,8 +91,7 @@ class FlightUnderForces {
         return first;
     }
 
-    /// Lets a pair bounce, or come to rest, at a time [s] of the step. A bounce harder than what presses the two in a
-    /// step ends the rest of others on them.
+    /// Lets a pair bounce, or come to rest, at a time [s] of the step.
     void bounce(const FirstImpact& hit, double time, std::size_t impacts) {
         const auto [i, j, wall] = hit.pair;
         const bool at_wall = wall != Contact::no_wall;
@@ -104,14 +103,12 @@ class FlightUnderForces {
         double pull = dot(a - b, touch.normal);
         if (!at_wall) pull = pull_of(pull, touch.restitution, press, distance, h_);
         const Bounce how{touch.restitution, approach, pull, distance};
-        const bool rests = squeezed_.hold(hit.pair, touch.normal, how, time, bodies_, state_, impacts) ||
-                           comes_to_rest(how, h_, impacts);
-        if (rests) {
-            resting_.push_back(hit.pair);
-        } else if (approach > h_ * press) {
+        const bool jams = squeezed_.hold(hit.pair, touch.normal, how, time, bodies_, state_, impacts);
+        const bool rests = jams || comes_to_rest(how, h_, impacts);
+        if (!(rests && (jams || impacts > most_inelastic)) && ends_rest(approach, press, distance, h_))
             std::erase_if(resting_,
                           [i = i, j = j](const Contact& c) { return c.i == i || c.j == i || c.i == j || c.j == j; });
-        }
+        if (rests) resting_.push_back(hit.pair);
         if (approach <= 0) return;
         if (rests)
             bring_to_rest(hit.pair, touch, walls_, bodies_, state_);

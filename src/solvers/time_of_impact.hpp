@@ -46,10 +46,17 @@ inline bool comes_to_rest(const Bounce& b, double h, std::size_t impacts, double
     return 2 * b.restitution * b.approach <= shortest_bounce * h * b.pull ||
            (is_elastic && b.approach * b.approach <= 2 * Bounce::hair * size * b.pull);
 }
+inline constexpr double hardly_moved = 1e-9;  ///< of the size: who is moved by that in a step is not moved
 /// The pull [m/s²] between two discs, for comes_to_rest: `press` is what each feels of its own. Without any, inelastic
 /// ones rest when a step would move them by a rounding.
 inline double pull_of(double relative, double restitution, double press, double distance, double h) {
-    return restitution < 1 ? std::max({relative, press, 1e-9 * distance / (h * h)}) : relative;
+    return restitution < 1 ? std::max({relative, press, hardly_moved * distance / (h * h)}) : relative;
+}
+
+/// Whether a blow ends the rest of others on those who are struck: if it drives these, in a step, farther into them
+/// than what presses the two does, or a rounding. A pile that settles would else wake itself for ever.
+inline bool ends_rest(double approach, double press, double distance, double h) {
+    return approach > std::max(h * press, hardly_moved * distance / h);
 }
 
 void advance_to_impacts(const Impulse&, const Flight&, const Walls&, const Bodies&, State&, double h, Contacts&);

@@ -130,10 +130,26 @@ double GasRun<Queue>::time_to_meet(Slot i, Slot j, Vec2 offset) const {
 /// In the open plane: whether the cells of two discs are side by side, or just share storage with such.
 template <class Queue>
 bool GasRun<Queue>::is_near(Slot i, Slot j) const {
+    return gas_.grid.is_near(discs_.disc[i], discs_.disc[j]);
+}
+
+/// How two meet that were foreseen to do so now. Where their cells have more than one way to one another it is by the
+/// flights that one tells which was foreseen: places at two clocks do not tell which image is near.
+template <class Queue>
+auto GasRun<Queue>::as_foreseen_now(Slot i, Slot j) const -> Meeting {
     const GasDisc &a = discs_.disc[i], &b = discs_.disc[j];
-    const std::int64_t dx = b.cell.x - a.cell.x + (static_cast<std::int64_t>(b.turns_x) - a.turns_x) * gas_.grid.nx;
-    const std::int64_t dy = b.cell.y - a.cell.y + (static_cast<std::int64_t>(b.turns_y) - a.turns_y) * gas_.grid.ny;
-    return std::abs(dx) <= 1 && std::abs(dy) <= 1;
+    if (!gas_.grid.has_twins()) {
+        const Vec2 offset = gas_.grid.between(a, b);
+        return {as_foreseen_now(now_, time_to_meet(i, j, offset)), offset};
+    }
+    Meeting met{gas_never, {}};
+    for (std::size_t k = 0; k < cells_around; ++k) {
+        if (gas_.grid.around(a.cell, column_around(k), row_around(k)) != b.cell) continue;
+        const double time = time_to_meet(i, j, offset_[k]);
+        if (std::abs(time - now_) < std::abs(met.time - now_)) met = {time, offset_[k]};
+    }
+    if (met.time < gas_never) met.time = as_foreseen_now(now_, met.time);
+    return met;
 }
 
 template <class Queue>

@@ -19,17 +19,12 @@ Along along(double place, double low, double side) {
 }
 std::int64_t turns_of(std::int64_t cell, std::int32_t n) { return cell >= 0 ? cell / n : -((-cell - 1) / n) - 1; }
 
-/// From column a to b in a ring of n, where the images of b are n columns apart: that which is nearest to a place `gap`
-/// before b's middle.
-double ring(std::int32_t from, std::int32_t to, std::int32_t n, double side, double gap) {
+/// The shortest way from one column to another in a ring of n.
+double ring(std::int32_t from, std::int32_t to, std::int32_t n, double side) {
     std::int32_t d = to - from;
     if (2 * d > n) d -= n;
     if (2 * d < -n) d += n;
-    double best = d * side;
-    if (n > 4) return best;
-    for (const std::int32_t other : {d - n, d + n})
-        if (std::abs(other * side + gap) < std::abs(best + gap)) best = other * side;
-    return best;
+    return d * side;
 }
 
 }  // namespace
@@ -43,11 +38,8 @@ void GasGrid::put(GasDisc& d, Vec2 place) const {
 }
 
 Vec2 GasGrid::between(const GasDisc& a, const GasDisc& b) const {
-    if (rim == Rim::periodic)
-        return {ring(a.cell.x, b.cell.x, nx, side.x, b.x.x - a.x.x),
-                ring(a.cell.y, b.cell.y, ny, side.y, b.x.y - a.x.y)};
-    return {(b.cell.x - a.cell.x + (b.turns_x - a.turns_x) * nx) * side.x,
-            (b.cell.y - a.cell.y + (b.turns_y - a.turns_y) * ny) * side.y};
+    if (rim != Rim::periodic) return unrolled(a, b);
+    return {ring(a.cell.x, b.cell.x, nx, side.x), ring(a.cell.y, b.cell.y, ny, side.y)};
 }
 
 GasRoom room_of(const Walls& walls, const std::vector<Vec2>& places) {

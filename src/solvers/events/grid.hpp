@@ -2,7 +2,9 @@
 // The cells of the exact gas. Places are relative to the middle of a cell, so that they are as precise far from the
 // origin as near it.
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 #include <vector>
 
 #include "collision/walls.hpp"
@@ -47,8 +49,32 @@ struct GasGrid {
     }
     /// Puts a disc into the cell of a place.
     void put(GasDisc& d, Vec2 place) const;
-    /// From the middle of a's cell to that of b's; in a periodic box to the image of b that is nearest to a.
+    /// From the middle of a's cell to that of b's; in a periodic box to that of b's images whose cell is nearest.
     Vec2 between(const GasDisc& a, const GasDisc& b) const;
+    /// To b itself, however often either went around.
+    Vec2 unrolled(const GasDisc& a, const GasDisc& b) const {
+        return {static_cast<double>(columns(a, b)) * side.x, static_cast<double>(rows(a, b)) * side.y};
+    }
+    /// Whether it is in the same cell as a, or beside that.
+    bool is_near(const GasDisc& a, const GasDisc& b) const {
+        return std::abs(columns(a, b)) <= 1 && std::abs(rows(a, b)) <= 1;
+    }
+    /// Whether two cells have more than one way to one another: of two along a side of the box, or one, the neighbours
+    /// on both sides are the same.
+    bool has_twins() const { return rim == Rim::periodic && std::min(nx, ny) <= 2; }
+    /// The cell so many columns and rows on, in a periodic box.
+    Cell around(Cell c, std::int32_t column, std::int32_t row) const {
+        return {static_cast<std::uint16_t>((c.x + column + nx) % nx),
+                static_cast<std::uint16_t>((c.y + row + ny) % ny)};
+    }
+
+  private:
+    std::int64_t columns(const GasDisc& a, const GasDisc& b) const {
+        return b.cell.x - a.cell.x + (static_cast<std::int64_t>(b.turns_x) - a.turns_x) * nx;
+    }
+    std::int64_t rows(const GasDisc& a, const GasDisc& b) const {
+        return b.cell.y - a.cell.y + (static_cast<std::int64_t>(b.turns_y) - a.turns_y) * ny;
+    }
 };
 auto members(Maybe_const<GasGrid> auto& grid) {
     auto& [rim, low, side, nx, ny] = grid;

@@ -242,14 +242,15 @@ template <class Queue>
 void GasRun<Queue>::hit_disc(Slot i, Slot j) {
     if (discs_.event[j].row < discs_.event[i].row) return hit_disc(j, i);
     open_books(i);
-    const Vec2 offset = gas_.grid.between(discs_.disc[i], discs_.disc[j]);
-    const double time = as_foreseen_now(now_, time_to_meet(i, j, offset));
-    move(i, time), move(j, time);
-    if (bounce(i, j, offset)) {
-        ++discs_.disc[i].hits, ++discs_.disc[j].hits;
-        ++books_->tally.disc_collisions;
+    const auto [time, offset] = as_foreseen_now(i, j);
+    if (time < gas_never) {  // by rounding two that graze one another may not meet any more
+        move(i, time), move(j, time);
+        if (bounce(i, j, offset)) {
+            ++discs_.disc[i].hits, ++discs_.disc[j].hits;
+            ++books_->tally.disc_collisions;
+        }
+        note(i), note(j);
     }
-    note(i), note(j);
     foresee(i);
     foresee(j);
 }
@@ -268,7 +269,7 @@ bool GasRun<Queue>::bounce(Slot i, Slot j, Vec2 offset) {
     a.v += (s * ease_a) * d;
     b.v -= (s * ease_b) * d;
     books_->tally.virial -= s * squared / scale_;
-    if (gas_.grid.rim != GasGrid::Rim::periodic || is_near(i, j)) return true;
+    if (gas_.grid.rim != GasGrid::Rim::periodic || gas_.grid.unrolled(a, b) == offset) return true;
     // Across the sides of the box the torques of the two do not cancel.
     const Vec2 apart = gas_.grid.middle(b) + b.x - (gas_.grid.middle(a) + a.x);
     books_->account[Giver::method].torque -= s * cross(apart, d);

@@ -82,6 +82,11 @@ class GasRun {
     void list_near();
     void note_near(Slot i);
     double as_foreseen_now(double due, double again) const;
+    struct Meeting {
+        double time;
+        Vec2 offset;  ///< from the cell of the first to that of the image it meets
+    };
+    Meeting as_foreseen_now(Slot i, Slot j) const;
     std::int32_t open_books(Slot i);
     std::int32_t distance(Slot i) const;
     bool bounce(Slot i, Slot j, Vec2 offset);
