@@ -188,6 +188,11 @@ World::State::Turn World::State::take_turn(const Turn& turn, int cuts, bool may_
     }
     motion.account += of_gas;
     company.arrive(together.dynamics, motion, moved);
+    if (company.stopped) {
+        make_hit(scene, motion, gas);
+        company.arrive(together.dynamics, motion, moved);
+    }
+    company.rest();
     if (!company.stopped) return {};
     return {turn.substep, turn.left - moved, moved - gone};
 }
