@@ -206,11 +206,10 @@ void GasCompany::kink() {
     }
 }
 
-/// Nothing that is done after the step was planned to end counts, so that who is as his solver has him can be hit.
-void GasCompany::arrive(const Dynamics& dynamics, State& state, double gone) {
+void GasCompany::arrive(const Dynamics& dynamics, State& state, double moved) {
     Gains gains(dynamics);
     Flows& account = state.account;
-    const double early = ways_.h - gone;
+    const double early = ways_.h - moved;
     for (GasMover& m : mover) {
         Vec2 &x = state.x.linear[m.row], &v = state.v.linear[m.row];
         double &angle = state.x.angular[m.row], &w = state.v.angular[m.row];
@@ -220,13 +219,21 @@ void GasCompany::arrive(const Dynamics& dynamics, State& state, double gone) {
             account[Giver::method].add(-m.given.force, -m.given.torque);
             x += pushed, v += m.gained, angle += m.pushed_turn - early * m.gained_spin, w += m.gained_spin;
         }
+        m.planned = m.v + (until - m.clock) * m.a, m.planned_spin = m.w + (until - m.clock) * m.alpha;
         m.x = x, m.v = v, m.angle = angle, m.w = w, m.clock = until;
         const auto direction = portable::sincos(angle);
         m.cosine = direction.cos, m.sine = direction.sin;
         m.begin_hits();
     }
     gains.book(account);
-    ways_.h = gone;
+    ways_.h = moved;
+}
+
+/// What differs by more has bounced or landed meanwhile.
+void GasCompany::be_as_planned() {
+    for (GasMover& m : mover)
+        if (length(m.planned - m.v) + m.reach * std::abs(m.planned_spin - m.w) <= slow_for(m))
+            m.v = m.planned, m.w = m.planned_spin;
 }
 
 void GasCompany::rest() {

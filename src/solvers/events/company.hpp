@@ -26,6 +26,8 @@ struct GasMover {
     Vec2 x{}, v{}, a{};
     double angle = 0, w = 0, alpha = 0;
     double cosine = 1, sine = 0;  ///< of the angle
+    Vec2 planned{};  ///< velocity where the step was stopped, as the gas saw it
+    double planned_spin = 0;
     bool hit = false;  ///< in this step
     Vec2 kick{};       ///< what hits gave its velocity since discs near it were listed [m/s]
     Wrench given{};    ///< by the gas in this step
@@ -113,9 +115,11 @@ class GasCompany {
     void kink();
     /// How long their step took, to the end or until it was stopped [s].
     double gone() const { return until - begin_; }
-    /// To those that were hit, and are where and as fast as their own solver has them so long after the step began [s],
-    /// adds what the gas gave them, and books it. So they are left.
-    void arrive(const Dynamics& dynamics, State& state, double gone);
+    /// To those that were hit, and are where and as fast as their own solver has moved them for so long [s],
+    /// adds what the gas gave them, and books it. So a hit finds them now.
+    void arrive(const Dynamics& dynamics, State& state, double moved);
+    /// They are as fast as the gas saw them, who move otherwise as overlaps are undone.
+    void be_as_planned();
     /// The step is over.
     void rest();
     /// Whose row it is; none if nobody's.

@@ -62,6 +62,7 @@ const GasTouch* GasCompany::most_pressed(double push, const std::vector<GasYield
 /// What bounces later is left to its own solver, and so is what lands later, or would be pressed deep before that looks
 /// again.
 bool GasCompany::leads_astray(double time, double push, const std::vector<GasYield>& yields) const {
+    constexpr double hardly = 0.1;
     const double left = until - time;
     if (stopped || left <= ways_.no_stop) return false;
     const auto pushed = [](const GasMover& m, Vec2 lever) { return m.pushed + cross(m.pushed_turn, lever); };
@@ -74,7 +75,8 @@ bool GasCompany::leads_astray(double time, double push, const std::vector<GasYie
             if (t.gap <= gives && closing_now(t) > slow_for(m)) return true;
             Vec2 nearer = pushed(m, t.lever);
             if (t.other != GasMover::none) nearer -= pushed(mover[t.other], t.lever_of_other);
-            if (dot(nearer, t.normal) - left * push * closing(t, yields) > t.gap + gives) return true;
+            const double room = std::max(t.gap + gives, hardly * gives);  // where it gave way before, to loads too
+            if (dot(nearer, t.normal) - left * push * closing(t, yields) > room) return true;
         }
     }
     return false;

@@ -118,10 +118,16 @@ bool GasRun<Queue>::hit_mover(Slot i, std::uint32_t part) {
     return true;
 }
 
+/// Where a contact moves bodies out of an overlap that is no velocity of theirs. Who lies on them is struck by it all
+/// the same: else he would be foreseen to be so again, for ever.
 template <class Queue>
 void GasRun<Queue>::make_hit(State& state) {
-    const Slot i = scene_.company->striker;
-    if (!hit_mover(i, scene_.company->about_to_hit)) foresee(i);
+    GasCompany& company = *scene_.company;
+    const Slot i = company.striker;
+    if (!hit_mover(i, company.about_to_hit)) {
+        company.be_as_planned();
+        if (!hit_mover(i, company.about_to_hit)) foresee(i);
+    }
     const std::uint32_t row = discs_.event[i].row;
     state.v.linear[row] = discs_.disc[i].v;
     if (!discs_.spin.empty()) state.v.angular[row] = discs_.spin[i].velocity;

@@ -144,7 +144,7 @@ bool GasCompany::strike(const Impact& impact, const Party& disc, Flows& account)
     } else if (impact.friction == 0) {
         blow.push(normal, impulse);
     } else if (blow.prepare(impact.struck, impact.time, across); !blow.follow(normal, across, impact)) {
-        constexpr int sweeps = 100;
+        constexpr int sweeps = 100;  // where friction jams the two what they give one another is bounded by these
         for (int k = 0; k < sweeps; ++k) {
             const double pressed = normal.given, rubbed = across.given;
             blow.push(normal, std::max(-pressed, -blow.speed(normal) / normal.ease));
