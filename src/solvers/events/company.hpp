@@ -26,7 +26,7 @@ struct GasMover {
     Vec2 x{}, v{}, a{};
     double angle = 0, w = 0, alpha = 0;
     double cosine = 1, sine = 0;  ///< of the angle
-    Vec2 planned{};  ///< velocity where the step was stopped, as the gas saw it
+    Vec2 planned{};               ///< velocity where the step was stopped, as the gas saw it
     double planned_spin = 0;
     bool hit = false;  ///< in this step
     Vec2 kick{};       ///< what hits gave its velocity since discs near it were listed [m/s]
@@ -126,8 +126,9 @@ class GasCompany {
     std::uint32_t of_row(std::uint32_t row) const { return row < of_row_.size() ? of_row_[row] : GasMover::none; }
     /// Two that touch: the impulses of an impact, at the instant that is the disc's, and their books. The normal is
     /// from the body to the disc; afterwards the disc flies off `restitution` times as fast as it came, and at least so
-    /// fast. False if that would send bodies on other ways than their own solver thought, for a blow of their own is yet
-    /// to come or they would be pressed into what they touch: then nothing has happened, and the step is to end here.
+    /// fast. False if that would send bodies on other ways than their own solver thought, for a blow of their own is
+    /// yet to come or they would be pressed into what they touch: then nothing has happened, and the step is to end
+    /// here.
     struct Impact {
         std::uint32_t struck;
         double time;
@@ -137,7 +138,9 @@ class GasCompany {
     bool strike(const Impact& impact, const Party& disc, Flows& account);
     /// The step ends, before a disc strikes what is in a part of the outline. Its solver has to say where all are now,
     /// and then that hit is made.
-    void stop(double time, Slot disc, std::uint32_t part) { stopped = true, until = time, striker = disc, about_to_hit = part; }
+    void stop(double time, Slot disc, std::uint32_t part) {
+        stopped = true, until = time, striker = disc, about_to_hit = part;
+    }
     /// How an impulse on a body, now, changes its velocities, and those of all that joints hold to it. The first is the
     /// body itself. All of them are moved on to this time.
     void find_yields(std::uint32_t struck, double time, Vec2 lever, Vec2 direction, std::vector<GasYield>& yields);
@@ -179,9 +182,9 @@ class GasCompany {
     const Mechanisms* mechanisms_ = nullptr;  ///< during a step
     std::vector<Mechanism> linked_;           ///< copies, with rigid rows alone but in an impact
     std::vector<std::uint32_t> of_row_;
-    GasWays ways_;                      ///< in this step, its kinks by the clock of the gas
-    std::size_t next_ = 0;              ///< of the kinks
-    double begin_ = 0;                  ///< of the company's step, by the clock of the gas [s]
+    GasWays ways_;          ///< in this step, its kinks by the clock of the gas
+    std::size_t next_ = 0;  ///< of the kinks
+    double begin_ = 0;      ///< of the company's step, by the clock of the gas [s]
     /// A touch that holds in a hit, and what its impulse of 1 N s does where those before it hold.
     struct HeldTouch {
         GasTouch touch;
