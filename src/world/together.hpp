@@ -10,8 +10,8 @@
 
 namespace carom {
 
-/// Where a turn begins, to which one that is stopped goes back. The storage is used again, which takes less time than
-/// to have it anew; a copy of the world has its own.
+/// Where a turn begins, to which one that is stopped goes back. The storage is used again; a copy of the world has its
+/// own.
 struct TurnBegin {
     State motion;
     SoftContacts contacts;
