@@ -134,7 +134,7 @@ class Strikes {
             approach = std::max(approach, -g.rate), pull = std::max(pull, -g.acceleration);
         }
         const double press = press_of(a, b);
-        pull = pull_of(pull, restitution(c), press, c.size, h_);
+        pull = pull_of(pull, restitution(c), press, c.size, std::max(h_, contacts_.pace.slow));
         // Momentum that runs through a row strikes each contact once or twice; discs that overlap would never be done.
         // What is elastic ends of itself, but for what hangs on joints: a light disc between a wall and a heavy one
         // strikes them thousands of times.

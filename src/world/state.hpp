@@ -187,6 +187,7 @@ struct World::State {
     };
     Turn take_turn(const Turn& turn, int cuts, bool may_stop);
     void move_company(double h, int cuts);
+    void move_company_again(double h, int cuts);
     /// Moves the bodies by a step of dt [s].
     void move(double dt);
     void finish_step(double dt);

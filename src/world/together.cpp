@@ -10,6 +10,8 @@ namespace carom {
 
 namespace {
 
+constexpr double least_turn = 1e-6;  ///< the shortest, of a substep
+
 /// The dynamic bodies that do not fly freely, by row.
 std::vector<bool> not_free(const Forces& forces, const Mechanisms& mechanisms, const std::vector<BodyId>& let_go,
                            const Bodies& bodies) {
@@ -82,8 +84,7 @@ std::vector<GasTouch> Together::touches(const LargeArray<SoftContact>& contacts,
             const Vec2 n = c.manifold.normal;
             const auto lever = levers(c, c.manifold, k, place(c.b) - place(c.a));
             const double gap = c.manifold.point[k].gap, later = gap + dot(way(c.b, lever[1]) - way(c.a, lever[0]), n);
-            GasTouch touch{
-                a, b, n, lever[0], lever[1], std::max(0.0, std::min(gap, later)), c.restitution, c.at_wall, number++};
+            GasTouch touch{a, b, n, lever[0], lever[1], std::min(gap, later), c.restitution, c.at_wall, number++};
             if (a != GasMover::none) all.push_back(touch);
             std::swap(touch.mover, touch.other), std::swap(touch.lever, touch.lever_of_other);
             touch.normal = -n;
@@ -140,9 +141,6 @@ void World::State::move_company(double h, int cuts) {
     memory.continues = false;
 }
 
-/// The shortest turn, of a substep.
-constexpr double least_turn = 1e-6;
-
 /// Turn by turn, of which a hit ends one where it sends bodies on ways that their own method has to find.
 void World::State::take_turns(double h, int cuts) {
     constexpr int most = 100;  // who is struck more often goes on as he was thought to
@@ -152,44 +150,51 @@ void World::State::take_turns(double h, int cuts) {
         soft_contacts.motion.frames[row].position = motion.x.linear[row];
 }
 
-/// The others move as if there were no gas. That it pushes them is added to their ways while the gas flies by. If it
-/// strikes one who bounces after that, or lies on something, they move once more and no further than to there.
+/// Takes back how they moved in the turn that was planned, and moves them no further than to where it ends. The gas is
+/// there already.
+void World::State::move_company_again(double h, int cuts) {
+    TurnBegin& begin = together.turn_begin;
+    std::swap(motion, begin.motion), std::swap(soft_contacts, begin.contacts), std::swap(memory, begin.memory);
+    std::swap(mechanisms.memory, begin.joints), std::swap(mechanisms.cuts, begin.cuts);
+    move_company(h, cuts);
+    const carom::State& shown = begin.motion;
+    for (std::size_t row = 0; row < motion.size(); ++row) {
+        if (together.bodies_of_gas.inverse_mass[row] == 0) continue;
+        motion.x.linear[row] = shown.x.linear[row], motion.x.angular[row] = shown.x.angular[row];
+        motion.v.linear[row] = shown.v.linear[row], motion.v.angular[row] = shown.v.angular[row];
+    }
+}
+
+/// The others move as if there were no gas. That it pushes them is added to their ways while the gas flies by. If it is
+/// about to strike one who bounces after that, or would be pressed into what he lies on, they move once more and no
+/// further than to there, and that hit finds them as they are then: what is booked is what happened.
 World::State::Turn World::State::take_turn(const Turn& turn, int cuts, bool may_stop) {
     const double least = least_turn * turn.substep;
     const GasScene scene = gas_scene();
     GasCompany& company = together.company;
+    TurnBegin& begin = together.turn_begin;
     make_ready(scene, motion, gas);
-    const carom::State start = motion;
-    const SoftContacts contacts_before = soft_contacts;
-    const Memory memory_before = memory;
-    const auto joints_before = std::pair(mechanisms.memory, mechanisms.cuts);
+    begin.motion = motion, begin.contacts = soft_contacts, begin.memory = memory;
+    begin.joints = mechanisms.memory, begin.cuts = mechanisms.cuts;
     soft_contacts.events.kinks.clear();
     move_company(turn.left, cuts);
-    company.set_out(
-        start, motion, mechanisms,
-        {turn.left, turn.ahead, turn.substep, may_stop ? least : HUGE_VAL,
-         together.kinks(soft_contacts.events.kinks, start.time), together.touches(soft_contacts.all, start, motion)});
+    company.set_out(begin.motion, motion, mechanisms,
+                    {turn.left, turn.ahead, turn.substep, may_stop ? least : HUGE_VAL,
+                     together.kinks(soft_contacts.events.kinks, begin.motion.time),
+                     together.touches(soft_contacts.all, begin.motion, motion)});
     const Flows of_others = std::exchange(motion.account, {});
     carom::advance(scene, motion, turn.left + turn.ahead, gas);
     const Flows of_gas = std::exchange(motion.account, of_others);
-    const double gone = company.gone();
-    double moved = turn.left;
-    if (company.stopped) {
-        moved = std::max(gone, least);
-        carom::State shown = std::exchange(motion, start);
-        soft_contacts = contacts_before, memory = memory_before;
-        std::tie(mechanisms.memory, mechanisms.cuts) = joints_before;
-        move_company(moved, cuts);
-        for (std::size_t row = 0; row < motion.size(); ++row) {
-            if (scene.bodies.inverse_mass[row] == 0) continue;
-            motion.x.linear[row] = shown.x.linear[row], motion.x.angular[row] = shown.x.angular[row];
-            motion.v.linear[row] = shown.v.linear[row], motion.v.angular[row] = shown.v.angular[row];
-        }
-    }
+    const double gone = company.gone(), moved = company.stopped ? std::max(gone, least) : turn.left;
+    if (company.stopped) move_company_again(moved, cuts);
     motion.account += of_gas;
     company.arrive(together.dynamics, motion, moved);
-    if (!company.stopped) return {};
-    return {turn.substep, turn.left - moved, moved - gone};
+    if (company.stopped) {
+        make_hit(scene, motion, gas);
+        company.arrive(together.dynamics, motion, moved);
+    }
+    company.rest();
+    return company.stopped ? Turn{turn.substep, turn.left - moved, moved - gone} : Turn{};
 }
 
 }  // namespace carom

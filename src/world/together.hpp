@@ -6,8 +6,23 @@
 #include "forces/dynamics.hpp"
 #include "solvers/events/company.hpp"
 #include "solvers/soft_step.hpp"
+#include "state/memory.hpp"
 
 namespace carom {
+
+/// Where a turn begins, to which one that is stopped goes back. The storage is used again; a copy of the world has its
+/// own.
+struct TurnBegin {
+    State motion;
+    SoftContacts contacts;
+    Memory memory;
+    decltype(Mechanisms::memory) joints;
+    decltype(Mechanisms::cuts) cuts{};
+
+    TurnBegin() = default;
+    TurnBegin(const TurnBegin&) {}
+    TurnBegin& operator=(const TurnBegin&) { return *this; }
+};
 
 /// Free discs are the gas. All that has shapes, springs, joints or forces of its own is moved in steps. Either method
 /// sees the bodies of the other as if they were fixed; rows are the same.
@@ -35,6 +50,7 @@ class Together {
     std::vector<Piece> pieces;  ///< all but the gas
     Dynamics dynamics;          ///< of the bodies in steps
     std::vector<bool> may_rest;
+    TurnBegin turn_begin;
 
   private:
     bool everybody_ = false;

@@ -91,8 +91,17 @@ void advance(const GasScene& scene, State& state, double h, GasOf<Queue>& gas) {
     data.tally += books.tally;
 }
 
+template <class Queue>
+void make_hit(const GasScene& scene, State& state, GasOf<Queue>& gas) {
+    GasBooks books;
+    GasRun(scene, gas.data, gas.whole, books).make_hit(state);
+    state.account += books.account;
+    gas.data.tally += books.tally;
+}
+
 template void make_ready(const GasScene&, State&, GasOf<Calendar>&);
 template void advance(const GasScene&, State&, double, GasOf<Calendar>&);
+template void make_hit(const GasScene&, State&, GasOf<Calendar>&);
 template void advance(const GasScene&, State&, double, GasOf<SortedQueue>&);
 
 }  // namespace carom

@@ -21,4 +21,8 @@ void make_ready(const GasScene& scene, State& state, GasOf<Queue>& gas);
 template <class Queue>
 void advance(const GasScene& scene, State& state, double h, GasOf<Queue>& gas);
 
+/// The hit before which that stopped the company, which has arrived there.
+template <class Queue>
+void make_hit(const GasScene& scene, State& state, GasOf<Queue>& gas);
+
 }  // namespace carom

@@ -162,10 +162,9 @@ void GasCompany::set_out(const State& start, const State& end, const Mechanisms&
         m.x = start.x.linear[m.row], m.angle = start.x.angular[m.row];
         m.v = m.v / h - 0.5 * m.a, m.w = m.w / h - 0.5 * m.alpha;
         m.a = m.a / h, m.alpha = m.alpha / h;
-        m.ahead = m.v - start.v.linear[m.row], m.ahead_in_spin = m.w - start.v.angular[m.row];
         const auto direction = portable::sincos(m.angle);
         m.cosine = direction.cos, m.sine = direction.sin;
-        m.hit = false, m.given = {}, m.pushed = {}, m.pushed_turn = 0;
+        m.begin_hits();
     }
     list_touches();
     next_ = 0;
@@ -207,39 +206,37 @@ void GasCompany::kink() {
     }
 }
 
-bool GasCompany::is_astray(const GasMover& m) const {
-    if (m.kinks > 0) return true;
-    const auto pushed = [](const GasMover& of, Vec2 lever) { return of.pushed + cross(of.pushed_turn, lever); };
-    for (std::uint32_t k = m.first_touch; k < m.last_touch; ++k) {
-        const GasTouch& t = ways_.touches[k];
-        Vec2 nearer = pushed(m, t.lever);
-        if (t.other != GasMover::none) nearer -= pushed(mover[t.other], t.lever_of_other);
-        if (dot(nearer, t.normal) > t.gap + GasTouch::give * m.reach) return true;
-    }
-    return false;
-}
-
-void GasCompany::stop_if_astray(double time) {
-    if (until - time <= ways_.no_stop) return;
-    const auto strays = [this](std::uint32_t k) { return is_astray(mover[k]); };
-    if (std::any_of(moved_.begin(), moved_.end(), strays)) stopped = true, until = time;
-}
-
-void GasCompany::arrive(const Dynamics& dynamics, State& state, double gone) {
+void GasCompany::arrive(const Dynamics& dynamics, State& state, double moved) {
     Gains gains(dynamics);
     Flows& account = state.account;
+    const double early = ways_.h - moved;
     for (GasMover& m : mover) {
-        if (!m.hit) continue;
-        m.move(begin_ + gone);
         Vec2 &x = state.x.linear[m.row], &v = state.v.linear[m.row];
         double &angle = state.x.angular[m.row], &w = state.v.angular[m.row];
-        const Vec2 now = m.v - m.ahead;
-        const double spin = m.w - m.ahead_in_spin;
-        gains.add(m.row, x, v, w, m.x - x, now - v, spin - w);
-        account[Giver::method].add(-m.given.force, -m.given.torque);
-        x = m.x, v = now, angle = m.angle, w = spin;
+        if (m.hit) {
+            const Vec2 pushed = m.pushed - early * m.gained;
+            gains.add(m.row, x, v, w, pushed, m.gained, m.gained_spin);
+            account[Giver::method].add(-m.given.force, -m.given.torque);
+            x += pushed, v += m.gained, angle += m.pushed_turn - early * m.gained_spin, w += m.gained_spin;
+        }
+        m.planned = m.v + (until - m.clock) * m.a, m.planned_spin = m.w + (until - m.clock) * m.alpha;
+        m.x = x, m.v = v, m.angle = angle, m.w = w, m.clock = until;
+        const auto direction = portable::sincos(angle);
+        m.cosine = direction.cos, m.sine = direction.sin;
+        m.begin_hits();
     }
     gains.book(account);
+    ways_.h = moved;
+}
+
+/// What differs by more has bounced or landed meanwhile.
+void GasCompany::be_as_planned() {
+    for (GasMover& m : mover)
+        if (length(m.planned - m.v) + m.reach * std::abs(m.planned_spin - m.w) <= slow_for(m))
+            m.v = m.planned, m.w = m.planned_spin;
+}
+
+void GasCompany::rest() {
     mechanisms_ = nullptr;
     until = gas_never;
 }

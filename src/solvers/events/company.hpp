@@ -26,17 +26,21 @@ struct GasMover {
     Vec2 x{}, v{}, a{};
     double angle = 0, w = 0, alpha = 0;
     double cosine = 1, sine = 0;  ///< of the angle
-    Vec2 ahead{};                 ///< of the velocity that its solver gives it: by so much it is faster on its way
-    double ahead_in_spin = 0;
+    Vec2 planned{};               ///< velocity where the step was stopped, as the gas saw it
+    double planned_spin = 0;
     bool hit = false;  ///< in this step
     Vec2 kick{};       ///< what hits gave its velocity since discs near it were listed [m/s]
     Wrench given{};    ///< by the gas in this step
-    Vec2 pushed{};     ///< how far hits of this step have moved it at its end [m], [rad]
+    Vec2 gained{};     ///< of its velocity, by hits of this step [m/s], [rad/s]
+    double gained_spin = 0;
+    Vec2 pushed{};  ///< how far they have moved it at the end of its step [m], [rad]
     double pushed_turn = 0;
     std::uint32_t kinks = 0;                        ///< that its own blows are yet to make in this step
     std::uint32_t first_touch = 0, last_touch = 0;  ///< of the company's
 
     bool turns() const { return w != 0 || alpha != 0; }
+    /// It was not hit yet.
+    void begin_hits() { hit = false, given = {}, gained = pushed = {}, gained_spin = pushed_turn = 0; }
     Vec2 velocity_at(Vec2 lever) const { return v + cross(w, lever); }
     /// Goes on to a time.
     void move(double time);
@@ -111,20 +115,32 @@ class GasCompany {
     void kink();
     /// How long their step took, to the end or until it was stopped [s].
     double gone() const { return until - begin_; }
-    /// Puts those that were hit where they are so long after the step began [s], and books what they gained.
-    void arrive(const Dynamics& dynamics, State& state, double gone);
+    /// To those that were hit, and are where and as fast as their own solver has moved them for so long [s],
+    /// adds what the gas gave them, and books it. So a hit finds them now.
+    void arrive(const Dynamics& dynamics, State& state, double moved);
+    /// They are as fast as the gas saw them, who move otherwise as overlaps are undone.
+    void be_as_planned();
+    /// The step is over.
+    void rest();
     /// Whose row it is; none if nobody's.
     std::uint32_t of_row(std::uint32_t row) const { return row < of_row_.size() ? of_row_[row] : GasMover::none; }
     /// Two that touch: the impulses of an impact, at the instant that is the disc's, and their books. The normal is
     /// from the body to the disc; afterwards the disc flies off `restitution` times as fast as it came, and at least so
-    /// fast.
+    /// fast. False if that would send bodies on other ways than their own solver thought, for a blow of their own is
+    /// yet to come or they would be pressed into what they touch: then nothing has happened, and the step is to end
+    /// here.
     struct Impact {
         std::uint32_t struck;
         double time;
         Vec2 normal;
         double restitution, least, friction;
     };
-    void strike(const Impact& impact, const Party& disc, Flows& account);
+    bool strike(const Impact& impact, const Party& disc, Flows& account);
+    /// The step ends, before a disc strikes what is in a part of the outline. Its solver has to say where all are now,
+    /// and then that hit is made.
+    void stop(double time, Slot disc, std::uint32_t part) {
+        stopped = true, until = time, striker = disc, about_to_hit = part;
+    }
     /// How an impulse on a body, now, changes its velocities, and those of all that joints hold to it. The first is the
     /// body itself. All of them are moved on to this time.
     void find_yields(std::uint32_t struck, double time, Vec2 lever, Vec2 direction, std::vector<GasYield>& yields);
@@ -136,13 +152,11 @@ class GasCompany {
     /// Holds what bodies lean on against so many times the impulse of the yields that were found last, until it is let
     /// go: where it does not bounce, or would by a hair. Returns whether there is any.
     bool hold_touches(double time, double push, const std::vector<GasYield>& yields);
-    /// What they are where that holds, and who takes what it does.
-    void keep_touches(std::vector<GasYield>& yields) const;
-    Giver holder() const;
+    /// What they are where that holds, by impulses along the normals of those touches [N s] that are added to these.
+    void keep_touches(std::vector<GasYield>& yields, std::vector<double>& held) const;
+    /// Books what they gave, who are not of the company; `rest` is what they all gave.
+    void book_held(const std::vector<double>& held, bool others_hold, Wrench rest, Flows& account) const;
     void let_touches_go() { held_.clear(); }
-    /// Ends the step if bodies that the last hit moved, at this time, will not go on as their own solver thought: a
-    /// blow of their own is yet to come, or they are pressed into what they touch. It has to look again.
-    void stop_if_astray(double time);
 
     std::vector<GasMover> mover;
     std::vector<std::uint32_t> outline;  ///< its obstacles, body by body
@@ -151,27 +165,32 @@ class GasCompany {
     std::vector<bool> is_near;                               ///< by slot
     double faster = 0;                                       ///< [m/s]
     double until = std::numeric_limits<double>::infinity();  ///< the end of the step, on the clock of the gas [s]
-    bool stopped = false;                                    ///< before that was planned
+    bool stopped = false;                                    ///< before that was planned,
+    Slot striker = no_slot;                                  ///< by this disc,
+    std::uint32_t about_to_hit = 0;                          ///< which is about to strike this part of the outline
 
   private:
     void link(const Mechanisms& mechanisms, const State& state);
     void list_touches();
-    bool is_astray(const GasMover& m) const;
+    bool leads_astray(double time, double push, const std::vector<GasYield>& yields) const;
+    /// How fast the two of a touch come nearer, and so fast that contacts give way to it in a substep [m/s].
+    double closing_now(const GasTouch& touch) const;
+    double slow_for(const GasMover& m) const { return GasTouch::give * m.reach / ways_.substep; }
     bool is_pressed(const GasTouch& touch, double by) const;
     const GasTouch* most_pressed(double push, const std::vector<GasYield>& yields) const;
 
     const Mechanisms* mechanisms_ = nullptr;  ///< during a step
     std::vector<Mechanism> linked_;           ///< copies, with rigid rows alone but in an impact
     std::vector<std::uint32_t> of_row_;
-    GasWays ways_;                      ///< in this step, its kinks by the clock of the gas
-    std::size_t next_ = 0;              ///< of the kinks
-    double begin_ = 0;                  ///< of the company's step, by the clock of the gas [s]
-    std::vector<std::uint32_t> moved_;  ///< by the last hit
+    GasWays ways_;          ///< in this step, its kinks by the clock of the gas
+    std::size_t next_ = 0;  ///< of the kinks
+    double begin_ = 0;      ///< of the company's step, by the clock of the gas [s]
     /// A touch that holds in a hit, and what its impulse of 1 N s does where those before it hold.
     struct HeldTouch {
         GasTouch touch;
         std::vector<GasYield> yields;
-        double ease;  ///< 0 if the others hold it already
+        std::vector<double> by_others;  ///< their impulses meanwhile [N s]
+        double ease;                    ///< 0 if the others hold it already
     };
     std::vector<HeldTouch> held_;
 };

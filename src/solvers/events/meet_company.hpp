@@ -80,8 +80,9 @@ void GasRun<Queue>::look_for_company(Slot i) {
 
 /// False if the two part already, by rounding.
 template <class Queue>
-bool GasRun<Queue>::hit_mover(Slot i, const GasObstacle& o) {
+bool GasRun<Queue>::hit_mover(Slot i, std::uint32_t part) {
     GasCompany& company = *scene_.company;
+    const GasObstacle& o = gas_.obstacle[part];
     GasMover& m = company.mover[o.mover];
     const std::uint32_t row = discs_.event[i].row;
     const double time = discs_.disc[i].clock;
@@ -95,6 +96,8 @@ bool GasRun<Queue>::hit_mover(Slot i, const GasObstacle& o) {
     const Vec2 gravity = acceleration_seen_from(m, between);
     const double pulled = least_rebound(i, gravity, normal), parting = beyond_rounding(i);
     if (approach <= -std::max(pulled, parting)) return false;
+    const GasPast past = discs_.past.empty() ? GasPast{} : discs_.past[i];
+    const std::uint64_t made_elastic = books_->tally.made_elastic;
     const Surfaces met =
         meeting({o.restitution, o.friction}, {scene_.bodies.restitution[row], scene_.bodies.friction[row]}, approach, i,
                 no_slot, weight_in_bounce(i, gravity, normal, approach));
@@ -102,13 +105,32 @@ bool GasRun<Queue>::hit_mover(Slot i, const GasObstacle& o) {
     // What loses energy comes to lie on it in the end, and there it trembles.
     const bool loses = met.restitution < 1 || met.friction > 0 || met.made_elastic;
     const double least = loses || approach <= 0 ? std::max(pulled, parting) : parting;
-    company.strike({o.mover, time, normal, met.restitution, least, met.friction}, party(i), books_->account);
+    if (!company.strike({o.mover, time, normal, met.restitution, least, met.friction}, party(i), books_->account)) {
+        if (!discs_.past.empty()) discs_.past[i] = past;
+        books_->tally.made_elastic = made_elastic;
+        company.stop(time, i, part);
+        return true;
+    }
     ++discs_.disc[i].hits;
     ++books_->tally.wall_collisions;
-    company.stop_if_astray(time);
     foresee(i);
     look_for_company();
     return true;
+}
+
+/// Where a contact moves bodies out of an overlap that is no velocity of theirs. Who lies on them is struck by it all
+/// the same: else he would be foreseen to be so again, for ever.
+template <class Queue>
+void GasRun<Queue>::make_hit(State& state) {
+    GasCompany& company = *scene_.company;
+    const Slot i = company.striker;
+    if (!hit_mover(i, company.about_to_hit)) {
+        company.be_as_planned();
+        if (!hit_mover(i, company.about_to_hit)) foresee(i);
+    }
+    const std::uint32_t row = discs_.event[i].row;
+    state.v.linear[row] = discs_.disc[i].v;
+    if (!discs_.spin.empty()) state.v.angular[row] = discs_.spin[i].velocity;
 }
 
 }  // namespace carom

@@ -395,7 +395,7 @@ void GasRun<Queue>::hit_obstacle(Slot i, std::uint32_t k) {
     const double set_off = discs_.disc[i].clock;
     move(i, as_foreseen_now(now_, again.time));
     if (o.mover != GasObstacle::no_row) {
-        if (!hit_mover(i, o)) foresee(i);
+        if (!hit_mover(i, k)) foresee(i);
         return;
     }
     GasFlight f = flight(i, o);

@@ -27,6 +27,8 @@ class GasRun {
     void meet_company();
     /// Blows of its own kink its ways now.
     void kink_company();
+    /// The hit before which the company was stopped, which is now where its own solver has it.
+    void make_hit(State& state);
     /// The events of all discs, from nothing.
     void foresee_all();
     /// The state at a time of the gas's clock.
@@ -75,7 +77,7 @@ class GasRun {
     void leave_cell(Slot i);
     void hit_disc(Slot i, Slot j);
     void hit_obstacle(Slot i, std::uint32_t k);
-    bool hit_mover(Slot i, const GasObstacle& o);
+    bool hit_mover(Slot i, std::uint32_t part);
     void look_for_company();
     void look_for_company(Slot i);
     void look_with_all();

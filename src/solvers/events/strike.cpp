@@ -16,7 +16,8 @@ struct Way {
     double arm;  ///< of the point of contact about the disc's centre [m]
     Account heat;
     std::vector<GasYield> yields{};
-    double ease = 0;  ///< inverse of the effective mass [1/kg]
+    std::vector<double> held{};  ///< by touches that hold meanwhile [N s]
+    double ease = 0;             ///< inverse of the effective mass [1/kg]
     double given = 0;
 };
 
@@ -27,7 +28,8 @@ class Strike {
 
     void prepare(std::uint32_t struck, double time, Way& way) {
         company_.find_yields(struck, time, lever_, way.along, way.yields);
-        company_.keep_touches(way.yields);
+        way.held.clear();
+        company_.keep_touches(way.yields, way.held);
         const GasYield& own = way.yields[0];
         way.ease = disc_.inverse_mass + way.arm * way.arm * disc_.inverse_inertia +
                    dot(own.v + cross(own.w, lever_), way.along);
@@ -58,6 +60,7 @@ class Strike {
             given.add_at(m.x, m.mass * change);
             given.torque -= m.inertia * impulse * yield.w;
             m.v += change, m.w -= impulse * yield.w, m.kick += change;
+            m.gained += change, m.gained_spin -= impulse * yield.w;
             const double left = company_.until - m.clock;
             m.pushed += left * change, m.pushed_turn -= left * impulse * yield.w;
             m.given.add(given.force, given.torque), total_.add(given.force, given.torque);
@@ -99,7 +102,19 @@ class Strike {
         const double more = -end.rubbed - (account_[Account::friction] - before);
         account_[Account::friction] += more, account_[Account::impact] -= more;
     }
-    const Wrench& total() const { return total_; }
+    /// Books what others gave. Joints pass what they are given on to the ground, and who does not turn is kept from it.
+    void book_held(const Way& normal, const Way& across) {
+        std::vector<double> held = normal.held;
+        held.resize(std::max(held.size(), across.held.size()));
+        for (double& h : held) h *= -normal.given;
+        for (std::size_t k = 0; k < across.held.size(); ++k) held[k] -= across.given * across.held[k];
+        const auto is_held = [this](const GasYield& yield) {
+            const GasMover& m = company_.mover[yield.mover];
+            return m.mechanism != GasMover::none || m.inverse_inertia == 0;
+        };
+        const bool others = std::any_of(normal.yields.begin(), normal.yields.end(), is_held);
+        company_.book_held(held, others, total_, account_);
+    }
 
   private:
     GasCompany& company_;
@@ -112,7 +127,7 @@ class Strike {
 }  // namespace
 
 /// Without friction Newton's rule; with it Poisson's, which never makes energy (see Blow).
-void GasCompany::strike(const Impact& impact, const Party& disc, Flows& account) {
+bool GasCompany::strike(const Impact& impact, const Party& disc, Flows& account) {
     const GasMover& body = mover[impact.struck];
     const Vec2 n = impact.normal;
     Strike blow(*this, disc, disc.x - disc.radius * n - body.x, account);
@@ -123,10 +138,13 @@ void GasCompany::strike(const Impact& impact, const Party& disc, Flows& account)
     if (at_stop) blow.prepare(impact.struck, impact.time, normal);
     if (hold_touches(impact.time, approach / normal.ease, normal.yields))
         blow.prepare(impact.struck, impact.time, normal);
-    if (impact.friction == 0) {
-        blow.push(normal, (approach + std::max(impact.restitution * approach, impact.least)) / normal.ease);
+    const double impulse = (approach + std::max(impact.restitution * approach, impact.least)) / normal.ease;
+    const bool lets = !leads_astray(impact.time, impulse, normal.yields);
+    if (!lets) {
+    } else if (impact.friction == 0) {
+        blow.push(normal, impulse);
     } else if (blow.prepare(impact.struck, impact.time, across); !blow.follow(normal, across, impact)) {
-        constexpr int sweeps = 100;
+        constexpr int sweeps = 100;  // where friction jams the two what they give one another is bounded by these
         for (int k = 0; k < sweeps; ++k) {
             const double pressed = normal.given, rubbed = across.given;
             blow.push(normal, std::max(-pressed, -blow.speed(normal) / normal.ease));
@@ -137,13 +155,9 @@ void GasCompany::strike(const Impact& impact, const Party& disc, Flows& account)
         blow.rub(across, normal.given, impact.friction);
     }
     if (at_stop) let_stops_go(impact.struck);
-    moved_.clear();
-    for (const GasYield& yield : normal.yields) moved_.push_back(yield.mover);
-    // What joints took is the ground's, and what keeps a body from turning.
-    const bool is_held = body.mechanism != GasMover::none || body.inverse_inertia == 0;
-    const Giver giver = is_held ? Giver::held : holder();
+    if (lets) blow.book_held(normal, across);
     let_touches_go();
-    account[giver].add(blow.total().force, blow.total().torque);
+    return lets;
 }
 
 }  // namespace carom
