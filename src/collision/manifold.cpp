@@ -16,7 +16,7 @@ namespace {
 struct Touch {
     Vec2 normal{};
     int count = 0;
-    bool corners = false;
+    bool corners = false, beside = false;
     bool is_flipped = false;  ///< points are of q and p
     TouchPoint point[2];
 
@@ -36,7 +36,7 @@ struct Ends {
     Vec2 normal, along;  ///< along the chain's way
     bool has_previous, has_next;
     Vec2 along_previous, along_next;
-    double previous_length, next_length;
+    double previous_reach, next_reach;
 
     Ends(const Convex& piece, const Frame& at)
         : normal(at.turn(piece.normal[0])),
@@ -45,8 +45,8 @@ struct Ends {
           has_next(piece.has_next),
           along_previous(-perpendicular(at.turn(piece.previous_normal))),
           along_next(-perpendicular(at.turn(piece.next_normal))),
-          previous_length(piece.previous_length),
-          next_length(piece.next_length) {}
+          previous_reach(piece.previous_reach),
+          next_reach(piece.next_reach) {}
 
     /// More than 0 at a concave corner.
     double bend(bool at_start) const { return at_start ? cross(along_previous, along) : cross(along, along_next); }
@@ -60,13 +60,11 @@ struct Ends {
         const double over_next = dot(direction, along_next);
         return over_next < 0 ? Owner::piece : over_next < sine_of_same ? Owner::neighbour : Owner::nobody;
     }
-    /// Whether what is this far beyond an end comes to the piece if it goes on along the neighbour, and by no more than
-    /// the margin [m]: behind a concave corner a piece bounds the room over its neighbour, too.
+    /// Whether what is this far beyond an end comes to the piece if it goes on along the chain, and by no more than
+    /// the margin [m]: behind a concave corner a piece bounds the room over its neighbours, too, as far as they bend on.
     bool comes(Vec2 direction, double margin) const {
         const double way = dot(direction, along);
-        const bool at_start = way <= 0;
-        if (at_start ? !has_previous : !has_next) return false;
-        return bend(at_start) > 0 && std::abs(way) <= std::min(margin, at_start ? previous_length : next_length);
+        return std::abs(way) <= std::min(margin, way <= 0 ? previous_reach : next_reach);
     }
     /// The owner, where q can touch a neighbour only if it reaches beyond the end that they share, and the first piece
     /// has nothing of whom it has behind it, though he lies on the corner.
@@ -113,7 +111,7 @@ void outline_against_corner(const Placed& p, const Placed& q, const std::optiona
         touch.corners = true;
         touch.add(p.corner(corner), c, corner_feature(corner), corner_feature(0));
     } else if (!ends || farthest >= 0) {
-        touch.normal = p.normal(edge);
+        touch.normal = p.normal(edge), touch.beside = comes;
         touch.add(c - farthest * touch.normal, c, edge_feature(edge), corner_feature(0));
     }
 }
@@ -219,7 +217,7 @@ Manifold manifold(const PlacedConvex& of_a, const PlacedConvex& of_b, Vec2 betwe
     b_leads ? find_touch(at_b, at_a, ends, margin, touch) : find_touch(at_a, at_b, ends, margin, touch);
     if (b_leads) touch.flip();
     Manifold found;
-    found.normal = touch.normal, found.corners = touch.corners;
+    found.normal = touch.normal, found.corners = touch.corners, found.beside = touch.beside;
     for (int k = 0; k < touch.count; ++k) {
         const auto& [on_p, on_q, feature_p, feature_q] = touch.point[k];
         const Vec2 core_a = touch.is_flipped ? on_q : on_p, core_b = (touch.is_flipped ? on_p : on_q) - between;

@@ -290,6 +290,8 @@ Scratch<std::uint32_t> find_touching(const SoftScene& scene, const State& state,
         const auto look_alone = [&](std::uint32_t place) {
             Manifold& manifold = manifolds[first + place];
             make_at(manifold, [&] { return look_at_placed(scene, near[first + place], contacts); });
+            if (manifold.beside && !comes_along(scene, state, h, near[first + place], manifold, contacts))
+                manifold.count = 0;
             if (manifold.count > 0) found |= 1U << place;
         };
         SideBySide side_by_side;
@@ -471,6 +473,7 @@ bool take_in(const SoftScene& scene, const State& state, double h, PreciseIsland
     std::sort(joining.begin(), joining.end(), [&](const Near& a, const Near& b) { return key_of(a) < key_of(b); });
     for (const Near& near : joining) {
         Manifold manifold = look_at(scene, near, contacts);
+        if (manifold.beside && !comes_along(scene, state, h, near, manifold, contacts)) manifold.count = 0;
         if (manifold.count == 0) look_past_neighbours(scene, state, h, near, contacts, manifold);
         if (manifold.count == 0 || comes_from_behind(scene, state, near, manifold, contacts) != FromBehind::no) {
             pass_over_later(without_contact(near, contacts), contacts.outlook);
