@@ -161,6 +161,28 @@ void outline_against_outline(const Placed& placed_p, const Placed& placed_q, dou
     if (touch.count == 0 && nearest.squared != 0) single(nearest, touch);
 }
 
+/// What is straight and goes on over a concave corner does not touch there: it touches with an end of its own first.
+void drop_concave_ends(const Ends& ends, Touch& touch) {
+    const auto is_concave = [&](const TouchPoint& t) {
+        return (t.feature_p == corner_feature(0) && ends.next_reach > 0) ||
+               (t.feature_p == corner_feature(1) && ends.previous_reach > 0);
+    };
+    if (touch.count == 2 && is_concave(touch.point[1])) --touch.count;
+    if (touch.count > 0 && is_concave(touch.point[0])) touch.point[0] = touch.point[1], --touch.count;
+}
+
+/// The corner of q that is nearest to a piece's line, if it is over its neighbours and may come to it along them.
+void corner_over_neighbours(const Placed& p, const Placed& q, const Ends& ends, double margin, Touch& touch) {
+    int nearest = 0;
+    for (int i = 1; i < q.count; ++i)
+        if (dot(q.corner(i) - q.corner(nearest), ends.normal) < 0) nearest = i;
+    const Vec2 c = q.corner(nearest), of_start = c - p.corner(1), of_end = c - p.corner(0);
+    const bool is_ahead = dot(of_end, ends.along) > 0;
+    if (!(is_ahead || dot(of_start, ends.along) < 0) || !ends.comes(is_ahead ? of_end : of_start, margin)) return;
+    touch.normal = ends.normal, touch.beside = true;
+    touch.add(c - dot(of_end, ends.normal) * ends.normal, c, edge_feature(0), corner_feature(nearest));
+}
+
 /// A piece of a chain against an outline of several corners.
 void piece_against_outline(const Placed& p, const Placed& q, const Ends& ends, double margin, Touch& touch) {
     if (dot(q.centre - p.corner(0), ends.normal) < 0) return;
@@ -189,7 +211,12 @@ void piece_against_outline(const Placed& p, const Placed& q, const Ends& ends, d
         }
     }
     const EdgeOf<double> edge_p(outline_of(p), 0), edge_q(outline_of(q), j);
-    if (facing < 0) return clip(edge_p, edge_q, plane(p.normal(0)), touch);
+    if (facing < 0) {
+        clip(edge_p, edge_q, plane(p.normal(0)), touch);
+        drop_concave_ends(ends, touch);
+        if (touch.count == 0) corner_over_neighbours(p, q, ends, margin, touch);
+        return;
+    }
     clip(edge_q, edge_p, plane(q.normal(j)), touch);
     touch.flip();
 }

@@ -48,23 +48,33 @@ bool has_at_chain(const SoftScene& scene, const Candidate& candidate, const std:
 
 }  // namespace
 
-bool comes_along(const SoftScene& scene, const State& state, double h, const Near& near, const Manifold& m,
-                 const SoftContacts& contacts) {
-    constexpr double ample = 1.1;  // forces may make it faster
+bool may_come(const SoftScene& scene, const State& state, double h, const Near& near, const Manifold& m,
+              const SoftContacts& contacts) {
+    constexpr double ample = 1.1, hair = 1e-3;  // of the way, for forces may make it longer, and of the size
     const Encounter c(near, m, contacts);
     const bool of_b = contacts.pieces.tags[c.piece_b].is_of_chain;
-    const Convex& piece = scene.pieces[of_b ? c.piece_b : c.piece_a].outline;
+    const bool is_round = contacts.pieces.tags[of_b ? c.piece_a : c.piece_b].is_single;
+    if (!m.beside && (is_round || is_fast(state, h, c.a, c.b, c.least_thickness, contacts))) return true;
     const Frame &at_a = contacts.motion.frames[c.a], &at_b = contacts.motion.frames[c.b];
-    const Vec2 between = at_b.position - at_a.position, on_a = core_a_of(false, m, 0, between),
-               on_b = m.point[0].core_b;
-    const Frame& at = of_b ? at_b : at_a;
-    const Vec2 there = at.turn_back(of_b ? on_a - between : on_b), along = -perpendicular(piece.normal[0]);
-    const double behind = dot(piece.corner[1] - there, along), ahead = dot(there - piece.corner[0], along);
-    const Vec2 v = velocity_at(state, c.b, on_b) - velocity_at(state, c.a, on_a);
-    if (behind <= piece.previous_length && ahead <= piece.next_length) return true;
-    const double approach = -dot(v, m.normal), way = ample * h * length(v);
-    return approach > 0 && m.point[0].gap <= ample * h * approach && behind <= piece.previous_length + way &&
-           ahead <= piece.next_length + way;
+    const Vec2 between = at_b.position - at_a.position;
+    const Convex& piece = scene.pieces[of_b ? c.piece_b : c.piece_a].outline;
+    const double falls = 2 * h * h * length(scene.flight.dynamics.gravity());
+    for (int k = 0; k < m.count; ++k) {
+        const Vec2 on_a = core_a_of(false, m, k, between), on_b = m.point[k].core_b;
+        const Vec2 v = velocity_at(state, c.b, on_b) - velocity_at(state, c.a, on_a);
+        const double closes = ample * h * -dot(v, m.normal), gap = m.point[k].gap;
+        if (!m.beside) {
+            if (gap <= std::max(0.0, closes) + hair * c.size + falls) return true;
+            continue;
+        }
+        const Vec2 along = -perpendicular(piece.normal[0]),
+                   there = of_b ? at_b.turn_back(on_a - between) : at_a.turn_back(between + on_b);
+        const double behind = dot(piece.corner[1] - there, along) - piece.previous_length,
+                     ahead = dot(there - piece.corner[0], along) - piece.next_length, way = ample * h * length(v);
+        if (std::max(behind, ahead) <= 0) return true;
+        if (closes > 0 && gap <= closes && std::max(behind, ahead) <= way) return true;
+    }
+    return false;
 }
 
 FromBehind comes_from_behind(const SoftScene& scene, const State& state, const Near& near, const Manifold& manifold,

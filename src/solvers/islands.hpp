@@ -109,7 +109,7 @@ inline bool are_foreseen(const SoftContacts& contacts) { return contacts.all.siz
 /// When what bears a few bodies that are solved here changes at once, of the next h [s], by the forces of now: friction
 /// has stopped a slip or roll, or who leans on something touches something else, or with another corner, where it is to
 /// be struck, however gently. h if nothing does, or as good as at once.
-double await_change(const PreciseIslands&, const SoftScene&, State&, SoftContacts&, double h);
+double await_change(const PreciseIslands&, const SoftScene&, State&, SoftContacts&, double h, double least);
 
 /// What a solve aims at.
 struct Aim {
