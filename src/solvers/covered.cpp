@@ -48,6 +48,21 @@ bool has_at_chain(const SoftScene& scene, const Candidate& candidate, const std:
 
 }  // namespace
 
+namespace {
+
+/// Whether a piece is one of those that may be left out where somebody goes past so many of them: hardly bent, of which
+/// one in a few is enough to keep him off the others.
+bool is_spare(const Piece& piece, double way) {
+    constexpr double most = 20, turn = 0.02;  // [rad] of all that are left out in a row: a thousandth of their length
+    const Convex& outline = piece.outline;
+    const double stride = std::min(way / (most * outline.width), 1e6);
+    if (!(stride >= 2) || piece.number % static_cast<std::uint32_t>(stride) == 0) return false;
+    const auto bend = [&](Vec2 other) { return std::abs(cross(outline.normal[0], other)); };
+    return stride * (bend(outline.previous_normal) + bend(outline.next_normal)) <= turn;
+}
+
+}  // namespace
+
 bool may_come(const SoftScene& scene, const State& state, double h, const Near& near, const Manifold& m,
               const SoftContacts& contacts) {
     constexpr double ample = 1.1, hair = 1e-3;  // of the way, for forces may make it longer, and of the size
@@ -57,24 +72,29 @@ bool may_come(const SoftScene& scene, const State& state, double h, const Near& 
     if (!m.beside && (is_round || is_fast(state, h, c.a, c.b, c.least_thickness, contacts))) return true;
     const Frame &at_a = contacts.motion.frames[c.a], &at_b = contacts.motion.frames[c.b];
     const Vec2 between = at_b.position - at_a.position;
-    const Convex& piece = scene.pieces[of_b ? c.piece_b : c.piece_a].outline;
-    const double falls = 2 * h * h * length(scene.flight.dynamics.gravity());
-    for (int k = 0; k < m.count; ++k) {
-        const Vec2 on_a = core_a_of(false, m, k, between), on_b = m.point[k].core_b;
-        const Vec2 v = velocity_at(state, c.b, on_b) - velocity_at(state, c.a, on_a);
-        const double closes = ample * h * -dot(v, m.normal), gap = m.point[k].gap;
-        if (!m.beside) {
-            if (gap <= std::max(0.0, closes) + hair * c.size + falls) return true;
-            continue;
-        }
-        const Vec2 along = -perpendicular(piece.normal[0]),
-                   there = of_b ? at_b.turn_back(on_a - between) : at_a.turn_back(between + on_b);
-        const double behind = dot(piece.corner[1] - there, along) - piece.previous_length,
-                     ahead = dot(there - piece.corner[0], along) - piece.next_length, way = ample * h * length(v);
-        if (std::max(behind, ahead) <= 0) return true;
-        if (closes > 0 && gap <= closes && std::max(behind, ahead) <= way) return true;
+    const auto closes = [&](int k) {
+        const Vec2 on_a = core_a_of(false, m, k, between);
+        return velocity_at(state, c.a, on_a) - velocity_at(state, c.b, m.point[k].core_b);
+    };
+    const double ahead = ample * h;
+    if (!m.beside) {
+        const double little = hair * c.size + 2 * h * h * length(scene.flight.dynamics.gravity());
+        return std::any_of(m.point, m.point + m.count, [&](const ManifoldPoint& p) {
+            const Vec2 v = closes(static_cast<int>(&p - m.point));
+            return p.gap <= std::max(0.0, ahead * dot(v, m.normal)) + little;
+        });
     }
-    return false;
+    const Piece& piece = scene.pieces[of_b ? c.piece_b : c.piece_a];
+    const Convex& line = piece.outline;
+    const Vec2 along = -perpendicular(line.normal[0]),
+               there = of_b ? at_b.turn_back(core_a_of(false, m, 0, between) - between)
+                            : at_a.turn_back(between + m.point[0].core_b);
+    const double beyond = std::max(dot(line.corner[1] - there, along) - line.previous_length,
+                                   dot(there - line.corner[0], along) - line.next_length);
+    if (beyond <= 0) return true;  // over the next one
+    const Vec2 v = closes(0);
+    const double way = ahead * length(v), nearer = ahead * dot(v, m.normal);
+    return nearer > 0 && m.point[0].gap <= nearer && beyond <= way && !is_spare(piece, way);
 }
 
 FromBehind comes_from_behind(const SoftScene& scene, const State& state, const Near& near, const Manifold& manifold,
