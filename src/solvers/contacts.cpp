@@ -266,14 +266,6 @@ Near without_contact(Near near, const SoftContacts& contacts) {
     return near;
 }
 
-/// Of a piece of a chain has no contact who does not come to it in a substep.
-void leave_out(const SoftScene& scene, const State& state, double h, const Near& near, const SoftContacts& contacts,
-               Manifold& manifold) {
-    if (manifold.count > 0 && is_at_chain(contacts.search.candidates[near.candidate], contacts.pieces) &&
-        !may_come(scene, state, h, near, manifold, contacts))
-        manifold.count = 0;
-}
-
 /// Of a piece of a chain that has no contact, for a neighbour has it: with who is so fast that he may strike it in the
 /// same substep, as if there were no neighbour. Whose it is where he comes down is told there.
 void look_past_neighbours(const SoftScene& scene, const State& state, double h, const Near& near,
@@ -298,7 +290,8 @@ Scratch<std::uint32_t> find_touching(const SoftScene& scene, const State& state,
         const auto look_alone = [&](std::uint32_t place) {
             Manifold& manifold = manifolds[first + place];
             make_at(manifold, [&] { return look_at_placed(scene, near[first + place], contacts); });
-            leave_out(scene, state, h, near[first + place], contacts, manifold);
+            const bool leaves = manifold.beside && !may_come(scene, state, h, near[first + place], manifold, contacts);
+            if (leaves) manifold.count = 0;
             if (manifold.count > 0) found |= 1U << place;
         };
         SideBySide side_by_side;
@@ -480,7 +473,7 @@ bool take_in(const SoftScene& scene, const State& state, double h, PreciseIsland
     std::sort(joining.begin(), joining.end(), [&](const Near& a, const Near& b) { return key_of(a) < key_of(b); });
     for (const Near& near : joining) {
         Manifold manifold = look_at(scene, near, contacts);
-        leave_out(scene, state, h, near, contacts, manifold);
+        if (manifold.beside && !may_come(scene, state, h, near, manifold, contacts)) manifold.count = 0;
         if (manifold.count == 0) look_past_neighbours(scene, state, h, near, contacts, manifold);
         if (manifold.count == 0 || comes_from_behind(scene, state, near, manifold, contacts) != FromBehind::no) {
             pass_over_later(without_contact(near, contacts), contacts.outlook);

@@ -65,35 +65,21 @@ bool is_spare(const Piece& piece, double way) {
 
 bool may_come(const SoftScene& scene, const State& state, double h, const Near& near, const Manifold& m,
               const SoftContacts& contacts) {
-    constexpr double ample = 1.1, hair = 1e-3;  // of the way, for forces may make it longer, and of the size
+    constexpr double ample = 1.1;  // forces may make it faster
     const Encounter c(near, m, contacts);
     const bool of_b = contacts.pieces.tags[c.piece_b].is_of_chain;
-    const bool is_round = contacts.pieces.tags[of_b ? c.piece_a : c.piece_b].is_single;
-    if (!m.beside && (is_round || is_fast(state, h, c.a, c.b, c.least_thickness, contacts))) return true;
     const Frame &at_a = contacts.motion.frames[c.a], &at_b = contacts.motion.frames[c.b];
-    const Vec2 between = at_b.position - at_a.position;
-    const auto closes = [&](int k) {
-        const Vec2 on_a = core_a_of(false, m, k, between);
-        return velocity_at(state, c.a, on_a) - velocity_at(state, c.b, m.point[k].core_b);
-    };
-    const double ahead = ample * h;
-    if (!m.beside) {
-        const double little = hair * c.size + 2 * h * h * length(scene.flight.dynamics.gravity());
-        return std::any_of(m.point, m.point + m.count, [&](const ManifoldPoint& p) {
-            const Vec2 v = closes(static_cast<int>(&p - m.point));
-            return p.gap <= std::max(0.0, ahead * dot(v, m.normal)) + little;
-        });
-    }
+    const Vec2 between = at_b.position - at_a.position, on_a = core_a_of(false, m, 0, between),
+               on_b = m.point[0].core_b;
     const Piece& piece = scene.pieces[of_b ? c.piece_b : c.piece_a];
     const Convex& line = piece.outline;
     const Vec2 along = -perpendicular(line.normal[0]),
-               there = of_b ? at_b.turn_back(core_a_of(false, m, 0, between) - between)
-                            : at_a.turn_back(between + m.point[0].core_b);
+               there = of_b ? at_b.turn_back(on_a - between) : at_a.turn_back(between + on_b);
     const double beyond = std::max(dot(line.corner[1] - there, along) - line.previous_length,
                                    dot(there - line.corner[0], along) - line.next_length);
     if (beyond <= 0) return true;  // over the next one
-    const Vec2 v = closes(0);
-    const double way = ahead * length(v), nearer = ahead * dot(v, m.normal);
+    const Vec2 v = velocity_at(state, c.a, on_a) - velocity_at(state, c.b, on_b);
+    const double way = ample * h * length(v), nearer = ample * h * dot(v, m.normal);
     return nearer > 0 && m.point[0].gap <= nearer && beyond <= way && !is_spare(piece, way);
 }
 
