@@ -61,7 +61,8 @@ struct Ends {
         return over_next < 0 ? Owner::piece : over_next < sine_of_same ? Owner::neighbour : Owner::nobody;
     }
     /// Whether what is this far beyond an end comes to the piece if it goes on along the chain, and by no more than
-    /// the margin [m]: behind a concave corner a piece bounds the room over its neighbours, too, as far as they bend on.
+    /// the margin [m]: behind a concave corner a piece bounds the room over its neighbours, too, as far as they bend
+    /// on.
     bool comes(Vec2 direction, double margin) const {
         const double way = dot(direction, along);
         return std::abs(way) <= std::min(margin, way <= 0 ? previous_reach : next_reach);

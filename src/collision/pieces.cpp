@@ -67,8 +67,7 @@ std::vector<Convex> split(const T& shape) {
 }
 
 /// How far beyond an end of each of some lines in the order of a chain, or against it, its line bounds the room over
-/// those that follow: as far as they bend towards the room, and by no more than a right angle. `turned` is 1 where the
-/// room is on the left of the way.
+/// those that follow: as far as they bend towards the room, and by no more than a right angle.
 void find_reaches(std::vector<Convex>& pieces, bool is_closed, bool forwards) {
     constexpr double straight = 1e-9;  // rad, by rounding
     const std::size_t count = pieces.size(), most = is_closed ? 2 * count : count;
@@ -77,10 +76,11 @@ void find_reaches(std::vector<Convex>& pieces, bool is_closed, bool forwards) {
         return (forwards ? 1 : -1) * cross(at(i).normal[0], at(j).normal[0]);
     };
     const auto bends_on = [&](std::size_t first, std::size_t next) {
-        return next < std::min(most, first + count) && bend(next - 1, next) > (next == first + 1 ? straight : -straight) &&
+        return next < std::min(most, first + count) &&
+               bend(next - 1, next) > (next == first + 1 ? straight : -straight) &&
                dot(at(first).normal[0], at(next).normal[0]) > 0;
     };
-    std::size_t end = 0;  // the first line that is not bounded any more
+    std::size_t end = 0;  // the first line over which the room is not bounded any more
     for (std::size_t i = 0; i < count; ++i) {
         end = std::max(end, i + 1);
         const bool bends = bends_on(i, i + 1);

@@ -46,14 +46,11 @@ bool has_at_chain(const SoftScene& scene, const Candidate& candidate, const std:
     return false;
 }
 
-}  // namespace
-
-namespace {
-
 /// Whether a piece is one of those that may be left out where somebody goes past so many of them: hardly bent, of which
 /// one in a few is enough to keep him off the others.
 bool is_spare(const Piece& piece, double way) {
-    constexpr double most = 20, turn = 0.02;  // [rad] of all that are left out in a row: a thousandth of their length
+    constexpr double most = 20,
+                     turn = 0.02;  // [rad] of all that are left out in a row: not a hundredth of their length
     const Convex& outline = piece.outline;
     const double stride = std::min(way / (most * outline.width), 1e6);
     if (!(stride >= 2) || piece.number % static_cast<std::uint32_t>(stride) == 0) return false;
@@ -66,6 +63,7 @@ bool is_spare(const Piece& piece, double way) {
 bool may_come(const SoftScene& scene, const State& state, double h, const Near& near, const Manifold& m,
               const SoftContacts& contacts) {
     constexpr double ample = 1.1;  // forces may make it faster
+    if (!m.beside) return true;
     const Encounter c(near, m, contacts);
     const bool of_b = contacts.pieces.tags[c.piece_b].is_of_chain;
     const Frame &at_a = contacts.motion.frames[c.a], &at_b = contacts.motion.frames[c.b];

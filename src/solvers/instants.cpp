@@ -158,7 +158,8 @@ double until_slip_ends(Prospect& prospect, const State& state, const SoftContact
 }
 
 /// When one of the bodies that lean on something touches something else, or with another corner, of the next h [s]; h
-/// if none does, or as good as at once. It is to be struck there, however gently.
+/// if none does, or as good as at once. It is to be struck there, however gently. Where so many do that their parts
+/// would be shorter than the least [s] several strike in one.
 double await_landing(Prospect& prospect, SoftContacts& contacts, double h, double least) {
     constexpr double at_once = 2e-3;  // of h
     constexpr double just = 0.97;     // before it: ways of what turns are foreseen to a per cent
@@ -180,17 +181,19 @@ double await_landing(Prospect& prospect, SoftContacts& contacts, double h, doubl
     }
     // Who passes more corners of a chain than there are parts left strikes several in one. Going straight on he would
     // meet up to twice as many as he does.
-    const bool is_fine = static_cast<double>(landings.size()) * least > 1.5 * h;
-    const double part = is_fine ? least : at_once * h;
+    const bool are_many = static_cast<double>(landings.size()) * least > 1.5 * h;
+    const double part = are_many ? least : at_once * h;
     double first = h;
     std::uint32_t lands = 0;
+    bool lands_within = false;
     for (const auto& [contact, time] : landings) {
+        lands_within = lands_within || (time > at_once * h && time <= part);
         if (time <= part)
             let_strike(contact);
-        else if (just * time < first)
+        else if (time < first)
             first = std::max(just * time, at_once * h), lands = contact;
     }
-    if (is_fine && first > part) return part;
+    if (lands_within) return part;
     if (first < h) let_strike(lands);
     return first;
 }

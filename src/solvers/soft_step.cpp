@@ -450,8 +450,9 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
         for (int cuts = 0; left > 0; left -= substep.h) {
             double next = cut_by_turns(scene, state, left, h);
             if (cuts < most_cuts) {
-                const double cut = std::min(until_strike(scene, state, contacts, next),
-                                            await_change(islands, scene, state, contacts, next, left / (most_cuts - cuts)));
+                const double cut =
+                    std::min(until_strike(scene, state, contacts, next),
+                             await_change(islands, scene, state, contacts, next, left / (most_cuts - cuts)));
                 cuts += cut < next, next = cut;
             }
             if (next != substep.h) contacts.motion.given_fits = false;  // that is of a substep as long
