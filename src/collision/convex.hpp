@@ -32,6 +32,8 @@ struct Convex {
     bool has_previous = false, has_next = false;
     Vec2 previous_normal{}, next_normal{};
     double previous_length = 0, next_length = 0;
+    /// How far beyond either end a line bounds the room over the chain, as that bends towards the room from there on.
+    double previous_reach = 0, next_reach = 0;
 };
 
 /// How thick an outline is where it is thinnest [m]; infinite of points and segments, which have no inside.

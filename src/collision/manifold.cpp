@@ -16,7 +16,7 @@ namespace {
 struct Touch {
     Vec2 normal{};
     int count = 0;
-    bool corners = false;
+    bool corners = false, beside = false;
     bool is_flipped = false;  ///< points are of q and p
     TouchPoint point[2];
 
@@ -36,7 +36,7 @@ struct Ends {
     Vec2 normal, along;  ///< along the chain's way
     bool has_previous, has_next;
     Vec2 along_previous, along_next;
-    double previous_length, next_length;
+    double previous_reach, next_reach;
 
     Ends(const Convex& piece, const Frame& at)
         : normal(at.turn(piece.normal[0])),
@@ -45,8 +45,8 @@ struct Ends {
           has_next(piece.has_next),
           along_previous(-perpendicular(at.turn(piece.previous_normal))),
           along_next(-perpendicular(at.turn(piece.next_normal))),
-          previous_length(piece.previous_length),
-          next_length(piece.next_length) {}
+          previous_reach(piece.previous_reach),
+          next_reach(piece.next_reach) {}
 
     /// More than 0 at a concave corner.
     double bend(bool at_start) const { return at_start ? cross(along_previous, along) : cross(along, along_next); }
@@ -60,13 +60,12 @@ struct Ends {
         const double over_next = dot(direction, along_next);
         return over_next < 0 ? Owner::piece : over_next < sine_of_same ? Owner::neighbour : Owner::nobody;
     }
-    /// Whether what is this far beyond an end comes to the piece if it goes on along the neighbour, and by no more than
-    /// the margin [m]: behind a concave corner a piece bounds the room over its neighbour, too.
+    /// Whether what is this far beyond an end comes to the piece if it goes on along the chain, and by no more than
+    /// the margin [m]: behind a concave corner a piece bounds the room over its neighbours, too, as far as they bend
+    /// on.
     bool comes(Vec2 direction, double margin) const {
         const double way = dot(direction, along);
-        const bool at_start = way <= 0;
-        if (at_start ? !has_previous : !has_next) return false;
-        return bend(at_start) > 0 && std::abs(way) <= std::min(margin, at_start ? previous_length : next_length);
+        return std::abs(way) <= std::min(margin, way <= 0 ? previous_reach : next_reach);
     }
     /// The owner, where q can touch a neighbour only if it reaches beyond the end that they share, and the first piece
     /// has nothing of whom it has behind it, though he lies on the corner.
@@ -113,7 +112,7 @@ void outline_against_corner(const Placed& p, const Placed& q, const std::optiona
         touch.corners = true;
         touch.add(p.corner(corner), c, corner_feature(corner), corner_feature(0));
     } else if (!ends || farthest >= 0) {
-        touch.normal = p.normal(edge);
+        touch.normal = p.normal(edge), touch.beside = comes;
         touch.add(c - farthest * touch.normal, c, edge_feature(edge), corner_feature(0));
     }
 }
@@ -163,6 +162,28 @@ void outline_against_outline(const Placed& placed_p, const Placed& placed_q, dou
     if (touch.count == 0 && nearest.squared != 0) single(nearest, touch);
 }
 
+/// What is straight and goes on over a concave corner does not touch there: it touches with an end of its own first.
+void drop_concave_ends(const Ends& ends, Touch& touch) {
+    const auto is_concave = [&](const TouchPoint& t) {
+        return (t.feature_p == corner_feature(0) && ends.next_reach > 0) ||
+               (t.feature_p == corner_feature(1) && ends.previous_reach > 0);
+    };
+    if (touch.count == 2 && is_concave(touch.point[1])) --touch.count;
+    if (touch.count > 0 && is_concave(touch.point[0])) touch.point[0] = touch.point[1], --touch.count;
+}
+
+/// The corner of q that is nearest to a piece's line, if it is over its neighbours and may come to it along them.
+void corner_over_neighbours(const Placed& p, const Placed& q, const Ends& ends, double margin, Touch& touch) {
+    int nearest = 0;
+    for (int i = 1; i < q.count; ++i)
+        if (dot(q.corner(i) - q.corner(nearest), ends.normal) < 0) nearest = i;
+    const Vec2 c = q.corner(nearest), of_start = c - p.corner(1), of_end = c - p.corner(0);
+    const bool is_ahead = dot(of_end, ends.along) > 0;
+    if (!(is_ahead || dot(of_start, ends.along) < 0) || !ends.comes(is_ahead ? of_end : of_start, margin)) return;
+    touch.normal = ends.normal, touch.beside = true;
+    touch.add(c - dot(of_end, ends.normal) * ends.normal, c, edge_feature(0), corner_feature(nearest));
+}
+
 /// A piece of a chain against an outline of several corners.
 void piece_against_outline(const Placed& p, const Placed& q, const Ends& ends, double margin, Touch& touch) {
     if (dot(q.centre - p.corner(0), ends.normal) < 0) return;
@@ -191,7 +212,12 @@ void piece_against_outline(const Placed& p, const Placed& q, const Ends& ends, d
         }
     }
     const EdgeOf<double> edge_p(outline_of(p), 0), edge_q(outline_of(q), j);
-    if (facing < 0) return clip(edge_p, edge_q, plane(p.normal(0)), touch);
+    if (facing < 0) {
+        clip(edge_p, edge_q, plane(p.normal(0)), touch);
+        drop_concave_ends(ends, touch);
+        if (touch.count == 0) corner_over_neighbours(p, q, ends, margin, touch);
+        return;
+    }
     clip(edge_q, edge_p, plane(q.normal(j)), touch);
     touch.flip();
 }
@@ -219,7 +245,7 @@ Manifold manifold(const PlacedConvex& of_a, const PlacedConvex& of_b, Vec2 betwe
     b_leads ? find_touch(at_b, at_a, ends, margin, touch) : find_touch(at_a, at_b, ends, margin, touch);
     if (b_leads) touch.flip();
     Manifold found;
-    found.normal = touch.normal, found.corners = touch.corners;
+    found.normal = touch.normal, found.corners = touch.corners, found.beside = touch.beside;
     for (int k = 0; k < touch.count; ++k) {
         const auto& [on_p, on_q, feature_p, feature_q] = touch.point[k];
         const Vec2 core_a = touch.is_flipped ? on_q : on_p, core_b = (touch.is_flipped ? on_p : on_q) - between;

@@ -66,6 +66,33 @@ std::vector<Convex> split(const T& shape) {
     return pieces;
 }
 
+/// How far beyond an end of each of some lines in the order of a chain, or against it, its line bounds the room over
+/// those that follow: as far as they bend towards the room, and by no more than a right angle.
+void find_reaches(std::vector<Convex>& pieces, bool is_closed, bool forwards) {
+    constexpr double straight = 1e-9;  // rad, by rounding
+    const std::size_t count = pieces.size(), most = is_closed ? 2 * count : count;
+    const auto at = [&](std::size_t i) -> Convex& { return pieces[forwards ? i % count : count - 1 - i % count]; };
+    const auto bend = [&](std::size_t i, std::size_t j) {
+        return (forwards ? 1 : -1) * cross(at(i).normal[0], at(j).normal[0]);
+    };
+    const auto bends_on = [&](std::size_t first, std::size_t next) {
+        return next < std::min(most, first + count) &&
+               bend(next - 1, next) > (next == first + 1 ? straight : -straight) &&
+               dot(at(first).normal[0], at(next).normal[0]) > 0;
+    };
+    std::size_t end = 0;  // the first line over which the room is not bounded any more
+    for (std::size_t i = 0; i < count; ++i) {
+        end = std::max(end, i + 1);
+        const bool bends = bends_on(i, i + 1);
+        while (bends && bends_on(i, end)) ++end;
+        const Convex& last = at(end - 1);
+        Convex& piece = at(i);
+        const Vec2 along = (forwards ? -1 : 1) * perpendicular(piece.normal[0]);
+        const double reach = bends ? dot(last.corner[forwards ? 0 : 1] - piece.corner[forwards ? 0 : 1], along) : 0;
+        (forwards ? piece.next_reach : piece.previous_reach) = reach;
+    }
+}
+
 std::vector<Convex> split(const Chain& chain) {
     const std::vector<Vec2>& p = chain.points;
     if (p.size() < 2) throw Error(fmt::format("Chain.points must be at least 2, got {}", p.size()));
@@ -87,6 +114,7 @@ std::vector<Convex> split(const Chain& chain) {
         if (piece.has_previous) piece.previous_normal = previous.normal[0], piece.previous_length = previous.width;
         if (piece.has_next) piece.next_normal = next.normal[0], piece.next_length = next.width;
     }
+    for (const bool forwards : {false, true}) find_reaches(pieces, chain.closed, forwards);
     return pieces;
 }
 

@@ -271,6 +271,7 @@ Near without_contact(Near near, const SoftContacts& contacts) {
 void look_past_neighbours(const SoftScene& scene, const State& state, double h, const Near& near,
                           const SoftContacts& contacts, Manifold& manifold) {
     const Candidate& c = contacts.search.candidates[near.candidate];
+    manifold.count = 0;
     if (!is_at_chain(c, contacts.pieces) || !is_fast(state, h, near.a, near.b, thickness(c, contacts.pieces), contacts))
         return;
     const auto& frames = contacts.motion.frames;
@@ -290,7 +291,8 @@ Scratch<std::uint32_t> find_touching(const SoftScene& scene, const State& state,
         const auto look_alone = [&](std::uint32_t place) {
             Manifold& manifold = manifolds[first + place];
             make_at(manifold, [&] { return look_at_placed(scene, near[first + place], contacts); });
-            if (manifold.count > 0) found |= 1U << place;
+            if (manifold.count > 0 && may_come(scene, state, h, near[first + place], manifold, contacts))
+                found |= 1U << place;
         };
         SideBySide side_by_side;
         for (std::uint32_t place = 0; place < std::min(at_once, near.size() - first); ++place)
@@ -299,10 +301,8 @@ Scratch<std::uint32_t> find_touching(const SoftScene& scene, const State& state,
         found |= side_by_side.look_at_all(look_alone);
         for (std::uint32_t place = 0; place < std::min(at_once, near.size() - first); ++place) {
             if ((found >> place & 1U) != 0) continue;
-            Manifold& manifold = manifolds[first + place];
-            manifold.count = 0;
-            look_past_neighbours(scene, state, h, near[first + place], contacts, manifold);
-            if (manifold.count > 0) found |= 1U << place;
+            look_past_neighbours(scene, state, h, near[first + place], contacts, manifolds[first + place]);
+            if (manifolds[first + place].count > 0) found |= 1U << place;
         }
         return found;
     };
@@ -471,7 +471,8 @@ bool take_in(const SoftScene& scene, const State& state, double h, PreciseIsland
     std::sort(joining.begin(), joining.end(), [&](const Near& a, const Near& b) { return key_of(a) < key_of(b); });
     for (const Near& near : joining) {
         Manifold manifold = look_at(scene, near, contacts);
-        if (manifold.count == 0) look_past_neighbours(scene, state, h, near, contacts, manifold);
+        if (manifold.count == 0 || !may_come(scene, state, h, near, manifold, contacts))
+            look_past_neighbours(scene, state, h, near, contacts, manifold);
         if (manifold.count == 0 || comes_from_behind(scene, state, near, manifold, contacts) != FromBehind::no) {
             pass_over_later(without_contact(near, contacts), contacts.outlook);
             continue;

@@ -46,7 +46,40 @@ bool has_at_chain(const SoftScene& scene, const Candidate& candidate, const std:
     return false;
 }
 
+/// Whether a piece is one of those that may be left out where somebody goes past so many of them: hardly bent, of which
+/// one in a few is enough to keep him off the others.
+bool is_spare(const Piece& piece, double way) {
+    constexpr double most = 20,
+                     turn = 0.02;  // [rad] of all that are left out in a row: not a hundredth of their length
+    const Convex& outline = piece.outline;
+    const double stride = std::min(way / (most * outline.width), 1e6);
+    if (!(stride >= 2) || piece.number % static_cast<std::uint32_t>(stride) == 0) return false;
+    const auto bend = [&](Vec2 other) { return std::abs(cross(outline.normal[0], other)); };
+    return stride * (bend(outline.previous_normal) + bend(outline.next_normal)) <= turn;
+}
+
 }  // namespace
+
+bool may_come(const SoftScene& scene, const State& state, double h, const Near& near, const Manifold& m,
+              const SoftContacts& contacts) {
+    constexpr double ample = 1.1;  // forces may make it faster
+    if (!m.beside) return true;
+    const Encounter c(near, m, contacts);
+    const bool of_b = contacts.pieces.tags[c.piece_b].is_of_chain;
+    const Frame &at_a = contacts.motion.frames[c.a], &at_b = contacts.motion.frames[c.b];
+    const Vec2 between = at_b.position - at_a.position, on_a = core_a_of(false, m, 0, between),
+               on_b = m.point[0].core_b;
+    const Piece& piece = scene.pieces[of_b ? c.piece_b : c.piece_a];
+    const Convex& line = piece.outline;
+    const Vec2 along = -perpendicular(line.normal[0]),
+               there = of_b ? at_b.turn_back(on_a - between) : at_a.turn_back(between + on_b);
+    const double beyond = std::max(dot(line.corner[1] - there, along) - line.previous_length,
+                                   dot(there - line.corner[0], along) - line.next_length);
+    if (beyond <= 0) return true;  // over the next one
+    const Vec2 v = velocity_at(state, c.a, on_a) - velocity_at(state, c.b, on_b);
+    const double way = ample * h * length(v), nearer = ample * h * dot(v, m.normal);
+    return nearer > 0 && m.point[0].gap <= nearer && beyond <= way && !is_spare(piece, way);
+}
 
 FromBehind comes_from_behind(const SoftScene& scene, const State& state, const Near& near, const Manifold& manifold,
                              const SoftContacts& contacts) {

@@ -51,6 +51,9 @@ void drop_covered(const SoftScene& scene, const State& state, double h, const So
 inline bool is_at_chain(const Candidate& c, const PieceTable& pieces) {
     return pieces.tags[c.piece_b].is_of_chain || (!c.is_at_wall() && pieces.tags[c.piece_a].is_of_chain);
 }
+/// Whether who is over the neighbours of a piece of a chain, if he is, may come to it in a substep of h [s]; if not
+/// that is asked again before the next one.
+bool may_come(const SoftScene&, const State&, double h, const Near&, const Manifold&, const SoftContacts&);
 /// How a body passes a piece of a chain that it has come to from behind, where nothing is solid.
 enum class FromBehind : std::uint8_t { no, now, until_out };
 /// `until_out` once it was deeper in it than it can have come from the front, and else `now` if its middle has just

@@ -158,12 +158,16 @@ double until_slip_ends(Prospect& prospect, const State& state, const SoftContact
 }
 
 /// When one of the bodies that lean on something touches something else, or with another corner, of the next h [s]; h
-/// if none does, or as good as at once. It is to be struck there, however gently.
-double await_landing(Prospect& prospect, SoftContacts& contacts, double h) {
+/// if none does, or as good as at once. It is to be struck there, however gently. Where so many do that their parts
+/// would be shorter than the least [s] several strike in one.
+double await_landing(Prospect& prospect, SoftContacts& contacts, double h, double least) {
     constexpr double at_once = 2e-3;  // of h
     constexpr double just = 0.97;     // before it: ways of what turns are foreseen to a per cent
-    double first = h;
-    std::uint32_t lands = 0;
+    struct Landing {
+        std::uint32_t contact;
+        double time;
+    };
+    Scratch<Landing> landings;
     const auto let_strike = [&](std::uint32_t i) {
         SoftContact& c = contacts.all[i];
         if (c.rests) return;  // with its other point: the solve of the two is as good as a blow
@@ -173,12 +177,23 @@ double await_landing(Prospect& prospect, SoftContacts& contacts, double h) {
     for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {
         const SoftContact& c = contacts.all[i];
         if (!prospect.moves_on(c, h) || !prospect.knows(c) || !prospect.leans(c)) continue;
-        const double time = prospect.touching(c, h);
-        if (time <= at_once * h)
-            let_strike(i);
-        else if (time < first)
-            first = std::max(just * time, at_once * h), lands = i;
+        if (const double time = prospect.touching(c, h); time < h) landings.push_back({i, time});
     }
+    // Who passes more corners of a chain than there are parts left strikes several in one. Going straight on he would
+    // meet up to twice as many as he does.
+    const bool are_many = static_cast<double>(landings.size()) * least > 1.5 * h;
+    const double part = are_many ? least : at_once * h;
+    double first = h;
+    std::uint32_t lands = 0;
+    bool lands_within = false;
+    for (const auto& [contact, time] : landings) {
+        lands_within = lands_within || (time > at_once * h && time <= part);
+        if (time <= part)
+            let_strike(contact);
+        else if (time < first)
+            first = std::max(just * time, at_once * h), lands = contact;
+    }
+    if (lands_within) return part;
     if (first < h) let_strike(lands);
     return first;
 }
@@ -186,10 +201,10 @@ double await_landing(Prospect& prospect, SoftContacts& contacts, double h) {
 }  // namespace
 
 double await_change(const PreciseIslands& islands, const SoftScene& scene, State& state, SoftContacts& contacts,
-                    double h) {
+                    double h, double least) {
     if (islands.all.empty() || !are_foreseen(contacts)) return h;
     Prospect prospect(islands, scene, state, contacts);
-    return std::min(until_slip_ends(prospect, state, contacts, h), await_landing(prospect, contacts, h));
+    return std::min(until_slip_ends(prospect, state, contacts, h), await_landing(prospect, contacts, h, least));
 }
 
 }  // namespace carom

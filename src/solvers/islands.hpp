@@ -112,8 +112,9 @@ void leave_given_up(const PreciseIslands&, SoftContacts&);
 inline bool are_foreseen(const SoftContacts& contacts) { return contacts.all.size() <= 50; }
 /// When what bears a few bodies that are solved here changes at once, of the next h [s], by the forces of now: friction
 /// has stopped a slip or roll, or who leans on something touches something else, or with another corner, where it is to
-/// be struck, however gently. h if nothing does, or as good as at once.
-double await_change(const PreciseIslands&, const SoftScene&, State&, SoftContacts&, double h);
+/// be struck, however gently. h if nothing does, or as good as at once. Where many land the first parts last this long
+/// at least [s], and several strike in one.
+double await_change(const PreciseIslands&, const SoftScene&, State&, SoftContacts&, double h, double least);
 
 /// What a solve aims at.
 struct Aim {

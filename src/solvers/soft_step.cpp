@@ -445,13 +445,14 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
             }
             substep.any_deep = is_new ? any_deep(contacts) : substep.any_deep || any_deep(contacts, before);
         }
-        constexpr int most_cuts = 7;
+        constexpr int most_cuts = 15;
         double left = h;
         for (int cuts = 0; left > 0; left -= substep.h) {
             double next = cut_by_turns(scene, state, left, h);
             if (cuts < most_cuts) {
-                const double cut = std::min(until_strike(scene, state, contacts, next),
-                                            await_change(islands, scene, state, contacts, next));
+                const double cut =
+                    std::min(until_strike(scene, state, contacts, next),
+                             await_change(islands, scene, state, contacts, next, left / (most_cuts - cuts)));
                 cuts += cut < next, next = cut;
             }
             if (next != substep.h) contacts.motion.given_fits = false;  // that is of a substep as long

@@ -86,6 +86,31 @@ TEST(Chain, HoldsADiscInAConcaveCornerFromBothSides) {
         EXPECT_NEAR(std::abs(m.normal.x), std::sqrt(0.5), 1e-15);
 }
 
+TEST(Chain, BoundsTheRoomOverItsNeighboursAsFarAsItBendsOn) {
+    // A ramp that rises more and more, and then falls off: each of its lines bounds the room until the top.
+    const auto ramp = pieces_of(Chain{{{-1, 0}, {0, 0}, {1, 0.1}, {2, 0.4}, {3, 0.9}, {4, 0.2}}});
+    const auto over = [&](const Convex& b, std::size_t piece, double x, double margin) {
+        return manifold(ramp[piece], {}, b, {}, {x, 1}, margin);
+    };
+    for (const Convex& b : {disc, plank, capsule}) {
+        EXPECT_EQ(over(b, 0, 2.5, 10).count, 1);
+        EXPECT_TRUE(over(b, 0, 2.5, 10).beside);
+        EXPECT_EQ(over(b, 0, 2.5, 10).normal, (Vec2{0, 1}));
+        EXPECT_NEAR(least_gap(over(b, 0, 2.5, 10)), 0.9, 1e-15);
+        EXPECT_EQ(over(b, 0, 2.5, 2).count, 0);   // farther than it comes
+        EXPECT_EQ(over(b, 0, 3.5, 10).count, 0);  // beyond the top
+        EXPECT_EQ(over(b, 3, 0.5, 10).count, 1);  // the last line that rises
+        EXPECT_EQ(over(b, 4, 0.5, 10).count, 0);
+    }
+    // Of a closed chain all lines that are not turned away do.
+    Chain ring{.closed = true};
+    for (int i = 0; i < 12; ++i) ring.points.push_back(frame_at({}, i * 0.52359877559829887).turn({1, 0}));
+    for (const Convex& piece : pieces_of(ring)) {
+        EXPECT_NEAR(piece.previous_reach, std::sqrt(0.5), 1e-12);
+        EXPECT_NEAR(piece.next_reach, piece.previous_reach, 1e-12);
+    }
+}
+
 TEST(Chain, GivesNormalsBetweenThoseOfItsPiecesAlone) {
     const auto hill = pieces_of(Chain{{{-2, 0}, {-1, 0}, {0, 0.5}, {1, 0.3}, {1.5, -0.2}, {2, 0.4}}});
     Random random(1);
