@@ -98,6 +98,12 @@ struct Rows {
     Lanes excess(const Point& p, const Softness& s) const {
         return -at(p.p.gap) - at(block.shallow) - all(s.give) * at(p.more.normal_force) / at(p.p.normal_mass);
     }
+    /// Whether its normal may have turned in the midst of the substep: that of two rounded corners, which are one
+    /// point.
+    template <class Point>
+    bool may_turn(const Point& p) const {
+        return block.any_corners && &p.p == &block.point[0];
+    }
     Lanes surface_speed() const { return block.any_belt ? at(block.surface_speed) : Lanes{}; }
     void write_back(Mover* movers) {
         const Lanes2 impulse{given.x * n.x - given.y * n.y, given.x * n.y + given.y * n.x};
@@ -116,9 +122,6 @@ inline void for_each_rows(Block& block, const Mover* movers, Work work) {
         work(rows);
     }
 }
-
-inline Lanes larger(Lanes a, Lanes b) { return select(a > b, a, b); }
-inline Lanes smaller(Lanes a, Lanes b) { return select(a < b, a, b); }
 
 /// A bit of each lane, from the row on.
 inline Mask flags(uint32_t bits, size_t row) {
@@ -234,9 +237,7 @@ inline void resist_rolling(Rows<ContactBlock>& r, const Point& p) {
 template <bool soft, class Point>
 inline void push(Rows<ContactBlock>& r, const Point& p, const Softness& s) {
     const Lanes zero{}, mass = r.at(p.p.normal_mass), before = r.at(p.p.normal_impulse);
-    Lanes gap = r.at(p.p.gap);
-    if constexpr (!soft)
-        if (r.block.any_corners && &p.p == &r.block.point[0]) gap -= r.at(r.block.bend);  // who touches is to turn
+    const Lanes gap = r.at(p.p.gap);
     Lanes speed = r.speed_along(p);
     if (r.block.any_pivots) {  // as speed_apart() has it
         const Lanes most = select(gap < -r.at(r.block.shallow), zero, r.at(r.block.recovery));
@@ -367,15 +368,15 @@ ContactSums settle(ContactBlock* blocks, size_t count, const Mover* means, doubl
                 r.put(p.more.tangent_force, rubbed / all(h));
                 presses |= (pressed != zero) | (rubbed != zero);
                 const Lanes speed_apart = r.speed_along(p);
-                const Lanes undone = larger(zero, smaller(speed_apart, r.at(r.block.recovery)));
-                const Lanes parted = select(r.at(p.p.gap) < zero, undone, zero);
                 const Lanes across = r.speed_across(p);
-                Lanes landed = pressed * (speed_apart - parted);
-                if (r.block.any_corners && &p.p == &r.block.point[0])
+                Lanes landed = pressed * speed_apart;
+                if (r.may_turn(p))
                     landed -= r.at(r.block.lag_along) * r.along + r.at(r.block.lag_across) * r.across +
                               (r.at(r.block.lag_turn_b) * r.b.w - r.at(r.block.lag_turn_a) * r.a.w);
-                landing.add(r.row, landed);
-                parting.add(r.row, pressed * parted);
+                const Lanes undone = larger(zero, smaller(landed, pressed * r.at(r.block.recovery)));
+                const Lanes parted = select(r.at(p.p.gap) < zero, undone, zero);
+                landing.add(r.row, landed - parted);
+                parting.add(r.row, parted);
                 slip.add(r.row, rubbed * (across - speed));
                 belt.add(r.row, rubbed * speed);
                 if (!r.block.any_rolling) return;
@@ -417,7 +418,7 @@ HeldSums sum_held(const ContactBlock* blocks, size_t count, const Mover* movers,
                                    sign * (pressed * r.n.y + rubbed * r.n.x)};
                     Lanes moment = x * impulse.y - y * impulse.x;
                     if (r.block.any_rolling) moment += sign * r.at(p.more.rolling_impulse);
-                    if (r.block.any_corners && &p.p == &r.block.point[0]) {
+                    if (r.may_turn(p)) {
                         const Lanes of_n = sign * r.at(r.block.lag_along), of_t = sign * r.at(r.block.lag_across);
                         const Lanes2 lag{of_n * r.n.x - of_t * r.n.y, of_n * r.n.y + of_t * r.n.x};
                         impulse.x -= lag.x, impulse.y -= lag.y;

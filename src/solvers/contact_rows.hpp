@@ -53,7 +53,6 @@ struct alignas(64) ContactBlock {
     Numbers radii;         ///< of the rounded rims together [m]
     Numbers uneven;        ///< radius a less radius b [m]
     Numbers corners;       ///< 1 where two rounded corners may touch: they pass one another on a circle
-    Numbers bend;          ///< of their gap, for the way of the next substep, where they touch [m]
     Numbers follows;       ///< 1 where the normal turns as they do so, in the midst of each substep
     /// Of the impulses so far what they and their moments on a and b are more with the normal of now than as given.
     Numbers lag_along, lag_across, lag_turn_a, lag_turn_b;

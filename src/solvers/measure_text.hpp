@@ -24,6 +24,9 @@ inline void scatter(const Moving& in, Mover* movers, const uint32_t* rows) {
     store_quads(&movers->vx, rows, {in.v.x, in.v.y, in.w, in.inverse_mass});
 }
 
+inline Lanes larger(Lanes a, Lanes b) { return select(a > b, a, b); }
+inline Lanes smaller(Lanes a, Lanes b) { return select(a < b, a, b); }
+
 inline Lanes2 turned(Lanes x, Lanes y, Lanes cosine, Lanes sine) {
     return {cosine * x - sine * y, sine * x + cosine * y};
 }
@@ -84,7 +87,7 @@ inline void add_more(const ContactBlock& block, size_t row, Mask where, const Tu
 /// from now on, of the forces before to begin with, is along those of now.
 inline void turn_normals(ContactBlock& block, size_t row, const Lanes4& a, const Lanes4& b, const Cores& c,
                          Mover* movers, const HalfBegin& half) {
-    constexpr double hair = 1e-9;  // rad
+    constexpr double least_turn = 1e-9;  // rad
     const auto at = [row](const double* numbers) { return load(numbers + row); };
     ContactBlock::Point& p = block.point[0];
     ContactBlock::More& more = block.more[0];
@@ -94,7 +97,7 @@ inline void turn_normals(ContactBlock& block, size_t row, const Lanes4& a, const
     const Lanes distance = select(follows, square_root(c.between.x * c.between.x + c.between.y * c.between.y), one);
     const Lanes2 m{c.between.x / distance, c.between.y / distance};
     const Lanes sine = n.x * m.y - n.y * m.x;
-    const Mask turns = follows & (sine * sine > all(hair * hair));
+    const Mask turns = follows & (sine * sine > all(least_turn * least_turn));
     const Lanes pressed = at(p.normal_impulse), rubbed = at(p.tangent_impulse);
     const auto note = [row, turns](double* numbers, Lanes value) {
         const Lanes now = select(turns, value, Lanes{});
@@ -138,8 +141,9 @@ inline void turn_normals(ContactBlock& block, size_t row, const Lanes4& a, const
 
 /// Measures the gaps of a block for bodies in these frames, that are about to move like this.
 inline void measure(ContactBlock& block, const HalfBegin& half, Mover* movers) {
-    constexpr double far = 1e300, hair = 1e-9;  // of the radii: they touch
-    block.any_deep = false, block.is_measured = true;
+    constexpr double far = 1e300, hair = 1e-9, least_bend = 1e-12;  // of the radii
+    block.any_deep = false;
+    Mask any_bends{};
     for (size_t row = 0; row < block_rows; row += static_cast<size_t>(lanes)) {
         const auto at = [row](const double* numbers) { return load(numbers + row); };
         const Lanes4 a = quads(half.frames, block.a + row), b = quads(half.frames, block.b + row);
@@ -153,9 +157,18 @@ inline void measure(ContactBlock& block, const HalfBegin& half, Mover* movers) {
             Lanes between = dx * at(block.normal_x) + dy * at(block.normal_y) - at(block.radii);
             if (block.any_corners && i == 0) {
                 const Lanes bend = bend_on_circle(block, row, Cores{on_a, on_b, {dx, dy}}, movers, half.h);
-                const Lanes of_touch = select(between <= all(hair) * at(block.radii), bend, Lanes{});
-                __builtin_memcpy(block.bend + row, &of_touch, sizeof of_touch);
-                between += bend;
+                const Mask bends = bend > all(least_bend) * at(block.radii);
+                any_bends |= bends;
+                const Lanes after = between + bend;
+                if (half.leads) {
+                    // Who was pressed to where he is now is off by an error of the bend, and touches: he is to turn.
+                    const Mask pressed = at(block.point[0].normal_impulse) > Lanes{};
+                    const Mask touches = (between <= all(hair) * at(block.radii)) | (pressed & (between <= bend));
+                    const Lanes closed = select(bends, smaller(between, Lanes{}), between);
+                    between = select(touches, closed, after);
+                } else {
+                    between = after;
+                }
             }
             if (block.any_preload && !block.is_precise) {
                 const Lanes mass = at(block.point[i].normal_mass),
@@ -167,6 +180,7 @@ inline void measure(ContactBlock& block, const HalfBegin& half, Mover* movers) {
             __builtin_memcpy(block.point[i].gap + row, &gap, sizeof gap);
         }
     }
+    block.is_measured = !any(any_bends);  // else for the velocities of now, and anew for those of the next half
 }
 
 }  // namespace

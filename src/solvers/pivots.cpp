@@ -5,19 +5,22 @@
 #include "solvers/pivots.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "solvers/shared.hpp"
 
 namespace carom {
 
 bool turns_in(double time, const SoftContact& c, double spin_a, double spin_b) {
-    constexpr double hair = 1e-6;  // of the smaller one's size
-    const auto turns = [&](double spin, Vec2 core) {
-        const double angle = time * spin, least = hair * c.size;
-        return angle * angle * squared_length(core) > least * least;
+    constexpr double hair = 1e-6;              // of the smaller one's size
+    const bool rolls = c.manifold.count == 1;  // a round rim, over which the point goes on: of a side it turns along
+    const auto turns = [&](double spin, Vec2 core, double radius) {
+        const double angle = time * spin, least = hair * c.size, rim = rolls ? 0 : radius;
+        return angle * angle * (squared_length(core) + rim * rim) > least * least;
     };
-    return std::any_of(c.manifold.point, c.manifold.point + c.manifold.count,
-                       [&](const ManifoldPoint& p) { return turns(spin_a, p.core_a) || turns(spin_b, p.core_b); });
+    return std::any_of(c.manifold.point, c.manifold.point + c.manifold.count, [&](const ManifoldPoint& p) {
+        return turns(spin_a, p.core_a, c.radius_a) || turns(spin_b, p.core_b, c.radius_b);
+    });
 }
 
 namespace {
@@ -58,6 +61,17 @@ struct Meeting {
     Vec2 normal, core_a, core_b;  ///< from the bodies' positions
 };
 
+/// A normal that has turned on by a little [rad].
+Vec2 turned_on(Vec2 normal, double angle) {
+    const Vec2 m = normal + angle * perpendicular(normal);
+    return m / length(m);
+}
+
+/// As much as two turn alike: so do sides that lie on one another, and their normal.
+double common(double spin_a, double spin_b) {
+    return spin_a * spin_b <= 0 ? 0 : std::abs(spin_a) < std::abs(spin_b) ? spin_a : spin_b;
+}
+
 /// How a round rim meets a corner, or a straight edge that has turned by so much [rad] since its foot was found there.
 Meeting roll_on(const SoftContact& c, bool edge_of_a, double turned, Vec2 between, Meeting m) {
     const Vec2 way = between + m.core_b - m.core_a;
@@ -65,8 +79,7 @@ Meeting roll_on(const SoftContact& c, bool edge_of_a, double turned, Vec2 betwee
         if (dot(way, m.normal) > 0) m.normal = way / length(way);
         return m;
     }
-    m.normal += turned * perpendicular(m.normal);
-    m.normal = m.normal / length(m.normal);
+    m.normal = turned_on(m.normal, turned);
     const Vec2 aside = way - dot(way, m.normal) * m.normal;
     (edge_of_a ? m.core_a : m.core_b) += (edge_of_a ? 1 : -1) * aside;
     return m;
@@ -94,7 +107,10 @@ void turn_levers(double h, SoftContacts& contacts) {
             auto& more = block.more[i];
             Meeting end{n, frames[c.a].turn({more.core_a_x[k], more.core_a_y[k]}),
                         frames[c.b].turn({more.core_b_x[k], more.core_b_y[k]})};
-            if (rolls) end = roll_on(c, edge_of_a, 0.5 * h * (edge_of_a ? a : b).w, between, end);
+            if (rolls)
+                end = roll_on(c, edge_of_a, 0.5 * h * (edge_of_a ? a : b).w, between, end);
+            else
+                end.normal = turned_on(n, 0.5 * h * common(a.w, b.w));
             const Vec2 now = speed(end);
             const Vec2 of_block = Vec2{b.vx, b.vy} + cross(b.w, lever_b_of(block, i, k)) - Vec2{a.vx, a.vy} -
                                   cross(a.w, lever_a_of(block, i, k));

@@ -80,7 +80,7 @@ inline void write_rows(const R& r, ContactBlock& block) {
     r.put(block.recovery, sizes_recovered * extent.x), r.put(block.shallow, shallow_size * extent.x);
     r.put(block.radii, surface.w + turned.x), r.put(block.uneven, surface.w - turned.x);
     r.put(block.follows, select(r.follows_corner(), zero + 1, zero));
-    r.put(block.bend, zero), r.put(block.lag_along, zero), r.put(block.lag_across, zero);
+    r.put(block.lag_along, zero), r.put(block.lag_across, zero);
     r.put(block.lag_turn_a, zero), r.put(block.lag_turn_b, zero);
     r.put(block.corners, select(r.rounds_a_corner(), zero + 1, zero));
     for (uint32_t i = 0; i < block.points; ++i) write_point(r, f, i, block);

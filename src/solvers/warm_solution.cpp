@@ -11,8 +11,7 @@ namespace carom {
 
 double speed_apart(const ContactBlock& block, int point, std::uint32_t k, const Aim& aim) {
     constexpr double recovered = 0.2;  // of an overlap in a substep
-    // Who touches is to go round at the end, and not straight on as far as the next substep lets him.
-    const double gap = block.point[point].gap[k] - (aim.recovers || point > 0 ? 0 : block.bend[k]);
+    const double gap = block.point[point].gap[k];
     // A lever that is not the block's throws nobody, and deep ones are parted.
     const double most = gap < -block.shallow[k] ? 0 : block.recovery[k];
     const double turned = std::clamp(block.more[point].turned_normal[k], -most, most);
