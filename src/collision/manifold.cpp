@@ -162,14 +162,22 @@ void outline_against_outline(const Placed& placed_p, const Placed& placed_q, dou
     if (touch.count == 0 && nearest.squared != 0) single(nearest, touch);
 }
 
-/// What is straight and goes on over a concave corner does not touch there: it touches with an end of its own first.
-void drop_concave_ends(const Ends& ends, Touch& touch) {
-    const auto is_concave = [&](const TouchPoint& t) {
-        return (t.feature_p == corner_feature(0) && ends.next_reach > 0) ||
-               (t.feature_p == corner_feature(1) && ends.previous_reach > 0);
+/// What is straight, and goes on over a concave corner at which the chain hardly bends, does not touch there: it comes
+/// to the next line with its own end first. Where the chain bends more, an end that is past the corner may be behind
+/// it.
+void drop_concave_ends(const Placed& p, const Placed& q, int edge, const Ends& ends, Touch& touch) {
+    constexpr double hardly = 0.1;  // rad
+    const Vec2 one = q.corner(edge), other = q.corner(q.next(edge));
+    const auto goes_on = [&](const TouchPoint& t) {
+        const bool at_end = t.feature_p == corner_feature(0), at_start = t.feature_p == corner_feature(1);
+        const bool is_concave = (at_end && ends.next_reach > 0) || (at_start && ends.previous_reach > 0);
+        if (!is_concave || ends.bend(at_start) > hardly) return false;
+        const Vec2 out = at_end ? ends.along : -ends.along, over = at_end ? ends.along_next : -ends.along_previous;
+        const Vec2 far = dot(other - one, out) > 0 ? other : one;
+        return dot(far - p.corner(at_end ? 0 : 1), over) > 0;
     };
-    if (touch.count == 2 && is_concave(touch.point[1])) --touch.count;
-    if (touch.count > 0 && is_concave(touch.point[0])) touch.point[0] = touch.point[1], --touch.count;
+    if (touch.count == 2 && goes_on(touch.point[1])) --touch.count;
+    if (touch.count > 0 && goes_on(touch.point[0])) touch.point[0] = touch.point[1], --touch.count;
 }
 
 /// The corner of q that is nearest to a piece's line, if it is over its neighbours and may come to it along them.
@@ -214,7 +222,7 @@ void piece_against_outline(const Placed& p, const Placed& q, const Ends& ends, d
     const EdgeOf<double> edge_p(outline_of(p), 0), edge_q(outline_of(q), j);
     if (facing < 0) {
         clip(edge_p, edge_q, plane(p.normal(0)), touch);
-        drop_concave_ends(ends, touch);
+        drop_concave_ends(p, q, j, ends, touch);
         if (touch.count == 0) corner_over_neighbours(p, q, ends, margin, touch);
         return;
     }

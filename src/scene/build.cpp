@@ -73,10 +73,10 @@ namespace {
 
 /// What a builder builds, once its expressions are known.
 template <class T>
-const T& ready(const T& builder, const Reader&, const Place&) {
+const T& ready(const T& builder, const Reader&, const Json&, const Place&) {
     return builder;
 }
-Body ready(const TrackExpression& track, const Reader& reader, const Place& place) {
+Body ready(const TrackExpression& track, const Reader& reader, const Json& item, const Place& place) {
     const auto coordinate = [&](const std::string& text, const char* field) {
         const Place own = place / std::string(field);
         return [&, own, f = function_of(text, own, {"s"}, reader.names())](double s) {
@@ -98,7 +98,11 @@ Body ready(const TrackExpression& track, const Reader& reader, const Place& plac
         chain.points.push_back(next);
     }
     Body body = track.body;
-    if (body.kind == Kind::dynamic) body.kind = Kind::fixed;
+    if (body.kind == Kind::dynamic) {
+        if (part(item, "body").is_object() && part(item, "body").contains("kind"))
+            throw(place / "body" / "kind").expected("fixed or driven, for a curve has no mass", item["body"]["kind"]);
+        body.kind = Kind::fixed;
+    }
     body.shapes.push_back({.geometry = std::move(chain)});
     return body;
 }
@@ -114,7 +118,7 @@ void build_all(World& world, const Reader& reader, const Json& root, const Place
             require_memory_for(amount_of(builder), place);
             if (int* own = seed_of(builder); own && !names_seed(item)) *own = nth_seed(seed, drawn++);
             const std::size_t before = world.size();
-            const auto& all = ready(builder, reader, at);
+            const auto& all = ready(builder, reader, item, at);
             try {
                 build(world, all);
             } catch (const Error& e) {

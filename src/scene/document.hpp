@@ -33,10 +33,10 @@ Json& find_place(Json& root, const std::string& path, const Place& top);
 /// An Error if a body's mass is written beside densities that make another one: `made` are the masses of its bodies.
 void check_mass(const Reader& reader, const Json& body, const Place& place, std::span<const double> made);
 
-/// Runs the scene's builders.
 /// A function written in a field.
 Function function_of(const std::string& text, const Place& place, const std::vector<std::string>& variables,
                      const Names& names);
+/// Runs the scene's builders.
 void build_all(World& world, const Reader& reader, const Json& root, const Place& top, int seed);
 
 }  // namespace carom

@@ -145,7 +145,7 @@ Manifold look(const SoftScene& scene, const Candidate& c, const Frame& a, const 
 Manifold look_beside(const SoftScene& scene, const Candidate& c, const Frame& a, const Frame& b, double margin) {
     const auto alone = [&](std::uint32_t piece) {
         Convex outline = scene.pieces[piece].outline;
-        outline.has_previous = outline.has_next = false;
+        outline.has_previous = outline.has_next = false, outline.previous_reach = outline.next_reach = 0;
         return outline;
     };
     return manifold(alone(c.piece_a), a, alone(c.piece_b), b, b.position - a.position, margin);

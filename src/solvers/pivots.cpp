@@ -109,7 +109,7 @@ void turn_levers(double h, SoftContacts& contacts) {
                         frames[c.b].turn({more.core_b_x[k], more.core_b_y[k]})};
             if (rolls)
                 end = roll_on(c, edge_of_a, 0.5 * h * (edge_of_a ? a : b).w, between, end);
-            else
+            else if (c.manifold.count == 2)
                 end.normal = turned_on(n, 0.5 * h * common(a.w, b.w));
             const Vec2 now = speed(end);
             const Vec2 of_block = Vec2{b.vx, b.vy} + cross(b.w, lever_b_of(block, i, k)) - Vec2{a.vx, a.vy} -

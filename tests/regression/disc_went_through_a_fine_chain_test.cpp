@@ -42,6 +42,27 @@ struct Bowl {
     }
 };
 
+// In between, a side that lay on one line and ended a hair past the corner was held there by neither: 5 cm deep.
+TEST(BentChain, HoldsABoxThatSlidesIntoItsCorner) {
+    for (const double bend : {0.05, 0.3, 0.8, 1.05, 1.25, 1.5}) {  // rad
+        World world({.gravity = {0, -gravity}, .solver = SoftStep{}});
+        const Vec2 up{2 * std::cos(bend / 2), 2 * std::sin(bend / 2)}, normal = 0.5 * Vec2{-up.y, up.x};
+        const Chain corner{.points = {{-up.x, up.y}, {}, up}};
+        world.add(Body{.kind = Kind::fixed, .shapes = {{.geometry = corner}}, .restitution = 0, .friction = 0});
+        world.add(Body{.position = 0.125 * up + 0.05 * normal,
+                       .angle = bend / 2,
+                       .mass = 1,
+                       .shapes = {{.geometry = Box{0.2, 0.1}}},
+                       .restitution = 0,
+                       .friction = 0});
+        double deepest = 0;
+        run(world, 2, 1. / 60, [&](const World& w) {
+            for (const Overlap& o : w.overlaps()) deepest = std::max(deepest, o.depth);
+        });
+        EXPECT_LT(deepest, 0.03 * 0.1) << bend;  // of its thickness: both its ends strike within a substep
+    }
+}
+
 }  // namespace
 
 TEST(FineChain, TakesOfADiscWhatItsCornersTake) {

@@ -133,23 +133,23 @@ bool GasRun<Queue>::is_near(Slot i, Slot j) const {
     return gas_.grid.is_near(discs_.disc[i], discs_.disc[j]);
 }
 
-/// How two meet that were foreseen to do so now. Where their cells have more than one way to one another it is by the
-/// flights that one tells which was foreseen: places at two clocks do not tell which image is near.
+/// How two meet that were foreseen to do so now. Where their cells have more than one way to one another it is the
+/// image that is at hand now: places at two clocks do not tell, nor flights of two that graze, for by rounding these
+/// may not meet any more.
 template <class Queue>
 auto GasRun<Queue>::as_foreseen_now(Slot i, Slot j) const -> Meeting {
     const GasDisc &a = discs_.disc[i], &b = discs_.disc[j];
-    if (!gas_.grid.has_twins()) {
-        const Vec2 offset = gas_.grid.between(a, b);
-        return {as_foreseen_now(now_, time_to_meet(i, j, offset)), offset};
+    Vec2 offset = gas_.grid.between(a, b);
+    if (gas_.grid.has_twins()) {
+        const auto place = [this](const GasDisc& d) { return d.x + (now_ - d.clock) * d.v; };
+        const Vec2 within = place(b) - place(a);
+        const auto off_touch = [&](Vec2 to) { return std::abs(length(to + within) - radius(i) - radius(j)); };
+        for (std::size_t k = 0; k < cells_around; ++k)
+            if (gas_.grid.around(a.cell, column_around(k), row_around(k)) == b.cell &&
+                off_touch(offset_[k]) < off_touch(offset))
+                offset = offset_[k];
     }
-    Meeting met{gas_never, {}};
-    for (std::size_t k = 0; k < cells_around; ++k) {
-        if (gas_.grid.around(a.cell, column_around(k), row_around(k)) != b.cell) continue;
-        const double time = time_to_meet(i, j, offset_[k]);
-        if (std::abs(time - now_) < std::abs(met.time - now_)) met = {time, offset_[k]};
-    }
-    if (met.time < gas_never) met.time = as_foreseen_now(now_, met.time);
-    return met;
+    return {as_foreseen_now(now_, time_to_meet(i, j, offset)), offset};
 }
 
 template <class Queue>

@@ -243,14 +243,12 @@ void GasRun<Queue>::hit_disc(Slot i, Slot j) {
     if (discs_.event[j].row < discs_.event[i].row) return hit_disc(j, i);
     open_books(i);
     const auto [time, offset] = as_foreseen_now(i, j);
-    if (time < gas_never) {  // by rounding two that graze one another may not meet any more
-        move(i, time), move(j, time);
-        if (bounce(i, j, offset)) {
-            ++discs_.disc[i].hits, ++discs_.disc[j].hits;
-            ++books_->tally.disc_collisions;
-        }
-        note(i), note(j);
+    move(i, time), move(j, time);
+    if (bounce(i, j, offset)) {
+        ++discs_.disc[i].hits, ++discs_.disc[j].hits;
+        ++books_->tally.disc_collisions;
     }
+    note(i), note(j);
     foresee(i);
     foresee(j);
 }

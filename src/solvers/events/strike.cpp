@@ -140,10 +140,9 @@ bool GasCompany::strike(const Impact& impact, const Party& disc, Flows& account)
         blow.prepare(impact.struck, impact.time, normal);
     const double impulse = (approach + std::max(impact.restitution * approach, impact.least)) / normal.ease;
     const bool lets = !leads_astray(impact.time, impulse, normal.yields);
-    if (!lets) {
-    } else if (impact.friction == 0) {
+    if (lets && impact.friction == 0) {
         blow.push(normal, impulse);
-    } else if (blow.prepare(impact.struck, impact.time, across); !blow.follow(normal, across, impact)) {
+    } else if (lets && (blow.prepare(impact.struck, impact.time, across), !blow.follow(normal, across, impact))) {
         constexpr int sweeps = 100;  // where friction jams the two what they give one another is bounded by these
         for (int k = 0; k < sweeps; ++k) {
             const double pressed = normal.given, rubbed = across.given;
