@@ -94,11 +94,12 @@ class Assembly {
         std::uint32_t& place = place_[row];
         if (place != no_index) return place;
         place = static_cast<std::uint32_t>(m.parts.size());
-        m.parts.push_back({row, 0, 0});
-        if (row < bodies_.size())
-            m.parts.back().inverse_mass = bodies_.inverse_mass[row],
-            m.parts.back().inverse_inertia = bodies_.inverse_inertia[row];
+        m.parts.push_back(part_of(row));
         return place;
+    }
+    Mechanism::Part part_of(std::uint32_t row) const {
+        if (row >= bodies_.size()) return {row, 0, 0};
+        return {row, bodies_.inverse_mass[row], bodies_.inverse_inertia[row]};
     }
     /// Takes over one of the last assembly that has these very joints, if they and its bodies are as they were. Whether
     /// a chain between two that are held is taut depends on where these are.
@@ -123,11 +124,8 @@ class Assembly {
         }
         if (held > 1) return false;
         for (std::uint32_t p = 0; p < old.parts.size(); ++p) {
-            const std::uint32_t row = now(p);
-            const double inverse_mass = row < ground ? bodies_.inverse_mass[row] : 0,
-                         inverse_inertia = row < ground ? bodies_.inverse_inertia[row] : 0;
-            if (old.parts[p].inverse_mass != inverse_mass || old.parts[p].inverse_inertia != inverse_inertia)
-                return false;
+            const Mechanism::Part is = part_of(now(p)), &was = old.parts[p];
+            if (was.inverse_mass != is.inverse_mass || was.inverse_inertia != is.inverse_inertia) return false;
         }
         for (std::uint32_t p = 0; p < old.parts.size(); ++p) old.parts[p].row = now(p);
         m = std::move(old);

@@ -231,10 +231,9 @@ class Newton {
         return fastest(v_) <= little_left * fastest(bodies_.free);
     }
     double fastest(const Scratch<double>& v) const {
-        double most = 0;
-        for (std::size_t i = 0; i < v.size(); ++i)
-            if (i % 3 != 2) most = std::max(most, std::abs(v[i] - at_rest_[i]));
-        return most;
+        Scratch<double> seen = v;
+        for (std::size_t i = 0; i < v.size(); ++i) seen[i] -= at_rest_[i];
+        return bodies_.fastest(seen);
     }
 
     /// Newton's method, with bounds of friction that follow to rounding. False where it is not balanced by Coulomb's

@@ -26,8 +26,12 @@ void GasMover::move(double time) {
     if (!turns()) return;
     angle += t * (w + 0.5 * t * alpha);
     w += t * alpha;
-    const auto turn = portable::sincos(angle);
-    cosine = turn.cos, sine = turn.sin;
+    face(angle);
+}
+
+void GasMover::face(double where) {
+    const auto turn = portable::sincos(where);
+    angle = where, cosine = turn.cos, sine = turn.sin;
 }
 
 GasFlight seen_from(const GasMover& m, const GasFlight& f) {
@@ -159,11 +163,9 @@ void GasCompany::set_out(const State& start, const State& end, const Mechanisms&
         ++m.kinks;
     }
     for (GasMover& m : mover) {
-        m.x = start.x.linear[m.row], m.angle = start.x.angular[m.row];
+        m.x = start.x.linear[m.row], m.face(start.x.angular[m.row]);
         m.v = m.v / h - 0.5 * m.a, m.w = m.w / h - 0.5 * m.alpha;
         m.a = m.a / h, m.alpha = m.alpha / h;
-        const auto direction = portable::sincos(m.angle);
-        m.cosine = direction.cos, m.sine = direction.sin;
         m.begin_hits();
     }
     list_touches();
@@ -220,9 +222,7 @@ void GasCompany::arrive(const Dynamics& dynamics, State& state, double moved) {
             x += pushed, v += m.gained, angle += m.pushed_turn - early * m.gained_spin, w += m.gained_spin;
         }
         m.planned = m.v + (until - m.clock) * m.a, m.planned_spin = m.w + (until - m.clock) * m.alpha;
-        m.x = x, m.v = v, m.angle = angle, m.w = w, m.clock = until;
-        const auto direction = portable::sincos(angle);
-        m.cosine = direction.cos, m.sine = direction.sin;
+        m.x = x, m.v = v, m.face(angle), m.w = w, m.clock = until;
         m.begin_hits();
     }
     gains.book(account);

@@ -44,6 +44,8 @@ struct GasMover {
     Vec2 velocity_at(Vec2 lever) const { return v + cross(w, lever); }
     /// Goes on to a time.
     void move(double time);
+    /// Has this angle now.
+    void face(double angle);
 };
 
 /// Where a body may touch another, or a wall, in a step.

@@ -99,7 +99,7 @@ void GasRun<Queue>::look_at(GasOthers& others, Slot i, GasMeeting& next) const {
     if (soonest.time > next.time || soonest.time == gas_never) return;
     if (gas_.grid.rim == GasGrid::Rim::open) {
         for (std::size_t k = 0; k < others.count; ++k)
-            if (others.time[k] <= next.time && is_near(i, others.slot[k]))
+            if (others.time[k] <= next.time && gas_.grid.is_near(discs_.disc[i], discs_.disc[others.slot[k]]))
                 take_if_sooner(others.time[k], others.slot[k], next);
         return;
     }
@@ -125,12 +125,6 @@ double GasRun<Queue>::time_to_meet(Slot i, Slot j, Vec2 offset) const {
     const double b = dot(d, u), c = dot(d, d) - reach * reach, inside = b * b - dot(u, u) * c;
     if (b >= 0 || (inside < 0 && c > 0)) return gas_never;
     return c <= 0 ? from : from + c / (std::sqrt(inside) - b);
-}
-
-/// In the open plane: whether the cells of two discs are side by side, or just share storage with such.
-template <class Queue>
-bool GasRun<Queue>::is_near(Slot i, Slot j) const {
-    return gas_.grid.is_near(discs_.disc[i], discs_.disc[j]);
 }
 
 /// How two meet that were foreseen to do so now. Where their cells have more than one way to one another it is the

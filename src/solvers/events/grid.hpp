@@ -55,7 +55,7 @@ struct GasGrid {
     Vec2 unrolled(const GasDisc& a, const GasDisc& b) const {
         return {static_cast<double>(columns(a, b)) * side.x, static_cast<double>(rows(a, b)) * side.y};
     }
-    /// Whether it is in the same cell as a, or beside that.
+    /// In the open plane: whether their cells are one or side by side, or just share storage with such.
     bool is_near(const GasDisc& a, const GasDisc& b) const {
         return std::abs(columns(a, b)) <= 1 && std::abs(rows(a, b)) <= 1;
     }

@@ -60,7 +60,6 @@ class GasRun {
     template <class CellOf, std::size_t... which>
     void look_into(CellOf cell_of, std::index_sequence<which...>, Slot i, GasMeeting& next) const;
     void look_at(GasOthers& others, Slot i, GasMeeting& next) const;
-    bool is_near(Slot i, Slot j) const;
     void look_for_obstacles(Slot i, GasMeeting& next) const;
     GasFlight flight(Slot i, const GasObstacle& o) const;
     GasFlight flight(Slot i, const GasNear& near) const;

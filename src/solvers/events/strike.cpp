@@ -102,6 +102,19 @@ class Strike {
         const double more = -end.rubbed - (account_[Account::friction] - before);
         account_[Account::friction] += more, account_[Account::impact] -= more;
     }
+    /// By sweeps from one way to the other, where friction jams the two: what they give one another is bounded by
+    /// these.
+    void sweep(Way& normal, Way& across, const GasCompany::Impact& impact) {
+        constexpr int sweeps = 100;
+        for (int k = 0; k < sweeps; ++k) {
+            const double pressed = normal.given, rubbed = across.given;
+            push(normal, std::max(-pressed, -speed(normal) / normal.ease));
+            rub(across, normal.given, impact.friction);
+            if (std::abs(normal.given - pressed) + std::abs(across.given - rubbed) <= 1e-15 * normal.given) break;
+        }
+        push(normal, std::max(impact.restitution * normal.given, impact.least / normal.ease));
+        rub(across, normal.given, impact.friction);
+    }
     /// Books what others gave. Joints pass what they are given on to the ground, and who does not turn is kept from it.
     void book_held(const Way& normal, const Way& across) {
         std::vector<double> held = normal.held;
@@ -140,18 +153,10 @@ bool GasCompany::strike(const Impact& impact, const Party& disc, Flows& account)
         blow.prepare(impact.struck, impact.time, normal);
     const double impulse = (approach + std::max(impact.restitution * approach, impact.least)) / normal.ease;
     const bool lets = !leads_astray(impact.time, impulse, normal.yields);
-    if (lets && impact.friction == 0) {
-        blow.push(normal, impulse);
-    } else if (lets && (blow.prepare(impact.struck, impact.time, across), !blow.follow(normal, across, impact))) {
-        constexpr int sweeps = 100;  // where friction jams the two what they give one another is bounded by these
-        for (int k = 0; k < sweeps; ++k) {
-            const double pressed = normal.given, rubbed = across.given;
-            blow.push(normal, std::max(-pressed, -blow.speed(normal) / normal.ease));
-            blow.rub(across, normal.given, impact.friction);
-            if (std::abs(normal.given - pressed) + std::abs(across.given - rubbed) <= 1e-15 * normal.given) break;
-        }
-        blow.push(normal, std::max(impact.restitution * normal.given, impact.least / normal.ease));
-        blow.rub(across, normal.given, impact.friction);
+    if (lets && impact.friction == 0) blow.push(normal, impulse);
+    if (lets && impact.friction != 0) {
+        blow.prepare(impact.struck, impact.time, across);
+        if (!blow.follow(normal, across, impact)) blow.sweep(normal, across, impact);
     }
     if (at_stop) let_stops_go(impact.struck);
     if (lets) blow.book_held(normal, across);
