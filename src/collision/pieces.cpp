@@ -124,10 +124,20 @@ std::vector<Convex> pieces_of(const Geometry& geometry) {
     return std::visit([](const auto& shape) { return split(shape); }, geometry);
 }
 
+namespace {
+
+std::size_t least_pieces(const Bodies& bodies) {
+    std::size_t count = 0;
+    for (const auto& shapes : bodies.shapes) count += std::max<std::size_t>(shapes.size(), 1);
+    return count;
+}
+
+}  // namespace
+
 void renew_pieces(const Bodies& bodies, std::size_t first, std::vector<Piece>& all) {
     all.erase(std::partition_point(all.begin(), all.end(), [first](const Piece& p) { return p.row < first; }),
               all.end());
-    if (first == 0) reserve_large(all, bodies.size());
+    if (first == 0) reserve_large(all, least_pieces(bodies));
     for (auto row = static_cast<std::uint32_t>(first); row < bodies.size(); ++row) {
         Piece piece;
         piece.row = row;

@@ -154,6 +154,7 @@ class Assembly {
         const std::size_t lines = rows_of_most * joints.size();
         reserve_large(m.members, joints.size()), reserve_large(m.lines, lines), reserve_large(laws_, lines);
         reserve_large(shape_.line_of, lines), reserve_large(shape_.bound_of, lines);
+        m.parts.reserve(joints.size() + 1);  // of a tree; each loop is a part less
         for (const std::uint32_t k : joints) {
             const Joint& joint = to_.joints[k];
             const Pair rows = rows_of(joint, bodies_);
@@ -310,10 +311,15 @@ class Assembly {
             return;
         }
         list_holders(m);
+        const auto& end = shape_.first_holder;
+        std::size_t pairs = 0;
+        for (std::uint32_t p = 0; p < m.parts.size(); ++p)
+            if (const std::size_t holders = end[p + 1] - end[p]; m.parts[p].inverse_mass != 0 && holders > 0)
+                pairs += holders * (holders - 1) / 2;
+        reserve_large(shape_.couplings, pairs);
         for (std::uint32_t p = 0; p < m.parts.size(); ++p) {
             if (m.parts[p].inverse_mass == 0) continue;
-            const auto first = shape_.holders.begin() + shape_.first_holder[p],
-                       last = shape_.holders.begin() + shape_.first_holder[p + 1];
+            const auto first = shape_.holders.begin() + end[p], last = shape_.holders.begin() + end[p + 1];
             for (auto i = first; i != last; ++i)
                 for (auto j = i + 1; j != last; ++j)
                     shape_.couplings.push_back({i->joint, j->joint, p, i->is_b, j->is_b, 0});

@@ -125,6 +125,7 @@ void note_pieces(const SoftScene& scene, PieceTable& pieces) {
     pieces.placed.resize(scene.pieces.size()), pieces.boxes.resize(scene.pieces.size());
     pieces.sizes.resize(scene.pieces.size());
     pieces.tags.clear(), pieces.names.clear();
+    reserve_large(pieces.tags, scene.pieces.size()), reserve_large(pieces.names, scene.pieces.size());
     pieces.extent.assign(scene.bodies.size() + 1, 0);
     pieces.extent.back() = HUGE_VAL;  // the ground's
     for (const Piece& piece : scene.pieces) {

@@ -91,6 +91,7 @@ bool Statics::add(const Mechanism& m, const State& state, const Scratch<std::uin
         return carom::end_of(m.parts[part].row, state, contacts_.motion.frames);
     };
     const std::size_t first = ties_.size();
+    if (first == 0) ties_.reserve(m.lines.size()), rows_.reserve(m.lines.size()), couplings_.reserve(m.members.size());
     for (const Member& k : m.members) {
         const std::uint32_t a = place[m.parts[k.a].row], b = place[m.parts[k.b].row];
         JointRow rows[most_rows];
