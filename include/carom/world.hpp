@@ -212,7 +212,8 @@ class World {
     /// substep; without those of bodies and shapes that are gone since, and empty after restore(). Bounces are not
     /// forces: events() has them.
     std::vector<ContactPoint> contacts() const;
-    /// The contact points of one body, as a or as b. It takes as long as all of them: to ask for many bodies, ask once.
+    /// The contact points of one body, as a or as b. The first question after a step takes as long as all of them, and
+    /// each further one no longer than those of its body.
     std::vector<ContactPoint> contacts(BodyId id) const;
 
     // Bodies, as rows of arrays. The order is that of ids(); removing a body moves the last one into its place.

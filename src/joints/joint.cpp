@@ -89,8 +89,8 @@ void complete(GearJoint& j, const Ends& ends, const std::string& where) {
     if (!j.sum) j.sum = rows_of(j, ends, &row);
 }
 void complete(PulleyJoint& j, const Ends& ends, const std::string&) {
-    JointRow row;
-    if (!j.length) j.length = rows_of(j, ends, &row);
+    JointRow rows[most_rows];
+    if (!j.length) j.length = rows_of(j, ends, rows);
 }
 void complete(DragHandle& j, const Ends&, const std::string&) {
     if (!j.spring) j.spring = JointSpring{.frequency = 5, .damping_ratio = 1};

@@ -51,19 +51,9 @@ Scratch<std::uint32_t> Holders::of(BodyId id, const std::vector<Joint>& joints) 
             act(k, joints[k].b.index);
         }
     };
-    if (!std::exchange(is_known_, true)) {
-        std::uint32_t last = 0;
-        each_end([&last](std::uint32_t, std::uint32_t index) { last = std::max(last, index); });
-        end_.assign(last + std::size_t{2}, 0);
-        each_end([this](std::uint32_t, std::uint32_t index) { ++end_[index]; });
-        std::exclusive_scan(end_.begin(), end_.end(), end_.begin(), 0U);
-        places_.resize(end_.back());
-        each_end([this](std::uint32_t k, std::uint32_t index) { places_[end_[index]++] = k; });
-    }
     Scratch<std::uint32_t> found;
-    if (id.index + std::size_t{1} >= end_.size()) return found;
-    for (std::uint32_t i = id.index == 0 ? 0 : end_[id.index - 1]; i < end_[id.index]; ++i)
-        if (joints[places_[i]].a == id || joints[places_[i]].b == id) found.push_back(places_[i]);
+    for (const std::uint32_t k : places_.of(id.index, each_end))
+        if (joints[k].a == id || joints[k].b == id) found.push_back(k);
     return found;
 }
 

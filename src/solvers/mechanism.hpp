@@ -10,6 +10,7 @@
 #include "math/block_matrix.hpp"
 #include "solvers/desk_rows.hpp"
 #include "solvers/soft_step.hpp"
+#include "state/places_by_body.hpp"
 
 namespace carom {
 
@@ -171,14 +172,12 @@ class KeptApart {
 /// Which joints hold which body.
 class Holders {
   public:
-    void forget() { is_known_ = false; }  ///< joints were edited
+    void forget() { places_.forget(); }  ///< joints were edited
     /// The places of those that hold a body, ascending.
     Scratch<std::uint32_t> of(BodyId, const std::vector<Joint>& joints);
 
   private:
-    bool is_known_ = false;
-    std::vector<std::uint32_t> places_;  ///< of those that hold bodies with an index
-    std::vector<std::uint32_t> end_;     ///< of these, an index later
+    PlacesByBody places_;
 };
 
 inline constexpr std::uint32_t no_mechanism = 0xffffffff;

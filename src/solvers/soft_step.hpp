@@ -16,6 +16,7 @@
 #include "solvers/contact_rows.hpp"
 #include "solvers/pair_search.hpp"
 #include "solvers/rest.hpp"
+#include "state/places_by_body.hpp"
 #include "state/profile.hpp"
 #include "state/row_ranges.hpp"
 
@@ -60,13 +61,14 @@ struct SoftContacts {
     ContactLayout layout;
     StageLists lists;
     ContactsOfBodies by_body;
+    PlacesByBody places;  ///< of all and then of those that rest, for who asks between steps
     BodyMotion motion;
     Pace pace;
     SoftEvents events;
     std::uint64_t strikes = 0;  ///< bounces so far
 
     /// A step of the world begins, of one advance or more: what is told of it is told anew.
-    void begin_step() { events.clear(), rest.is_new = false; }
+    void begin_step() { events.clear(), rest.is_new = false, places.forget(); }
     /// To be called when anything is changed from outside but velocities.
     void forget_search() { rest.is_known = search.knows_pairs = false; }
     /// To be called when a body moves otherwise or is to be awake: who was left out is looked at again.

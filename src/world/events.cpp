@@ -145,25 +145,46 @@ void World::State::note_events() {
            events.sensor_ends);
 }
 
-std::vector<ContactPoint> World::State::contact_points(std::optional<BodyId> of) const {
+void World::State::add_points(const SoftContact& c, std::vector<ContactPoint>& points) const {
+    const ShapePair shapes = c.shapes();
+    const bool a_is_there = c.at_wall ? c.shape_a != SoftContact::no_shape : is_there(shapes.a, bodies);
+    if (!a_is_there || !is_there(shapes.b, bodies)) return;
+    const Vec2 b = soft_contacts.motion.frames[c.b].position;  // as the step left it
+    for (int i = 0; i < c.manifold.count; ++i)
+        if (c.normal_force[i] > 0)
+            points.push_back({shapes, point_of(c, i, b), c.manifold.normal, c.normal_force[i], c.tangent_force[i]});
+}
+
+std::vector<ContactPoint> World::State::contact_points() const {
     std::vector<ContactPoint> points;
     if (!is_soft()) return points;
     for (const auto* list : {&soft_contacts.all, &soft_contacts.rest.contacts})
-        for (const SoftContact& c : *list) {
-            const ShapePair shapes = c.shapes();
-            if (of && shapes.a.body != *of && shapes.b.body != *of) continue;
-            const bool a_is_there = c.at_wall ? c.shape_a != SoftContact::no_shape : is_there(shapes.a, bodies);
-            if (!a_is_there || !is_there(shapes.b, bodies)) continue;
-            const Vec2 b = soft_contacts.motion.frames[c.b].position;  // as the step left it
-            for (int i = 0; i < c.manifold.count; ++i)
-                if (c.normal_force[i] > 0)
-                    points.push_back(
-                        {shapes, point_of(c, i, b), c.manifold.normal, c.normal_force[i], c.tangent_force[i]});
-        }
+        for (const SoftContact& c : *list) add_points(c, points);
     return points;
 }
 
-std::vector<ContactPoint> World::contacts() const { return state_->contact_points({}); }
+std::vector<ContactPoint> World::State::contact_points(BodyId of) {
+    std::vector<ContactPoint> points;
+    if (!is_soft()) return points;
+    const auto &all = soft_contacts.all, &at_rest = soft_contacts.rest.contacts;
+    const auto each_end = [&](const auto& act) {
+        std::uint32_t place = 0;
+        for (const auto* list : {&all, &at_rest})
+            for (const SoftContact& c : *list) {
+                if (!c.at_wall) act(place, c.key.a.index);
+                act(place++, c.key.b.index);
+            }
+    };
+    if (at_work.now) soft_contacts.places.forget();  // by a force that asks in a step, where they change
+    for (const std::uint32_t k : soft_contacts.places.of(of.index, each_end)) {
+        const SoftContact& c = k < all.size() ? all[k] : at_rest[k - all.size()];
+        if ((!c.at_wall && c.key.a == of) || c.key.b == of) add_points(c, points);
+    }
+    if (at_work.now) soft_contacts.places.forget();
+    return points;
+}
+
+std::vector<ContactPoint> World::contacts() const { return state_->contact_points(); }
 std::vector<ContactPoint> World::contacts(BodyId id) const {
     state_->bodies.row(id);
     return state_->contact_points(id);

@@ -152,8 +152,10 @@ struct World::State {
     PlacedPieces placed_pieces();
     /// The walls that there are, for questions that seek them.
     Walls sought_walls(const Sought&) const;
-    /// Where bodies are pressed together: all of it, or one of them.
-    std::vector<ContactPoint> contact_points(std::optional<BodyId> of) const;
+    /// Where the bodies of a contact are pressed together, those that there are.
+    void add_points(const SoftContact&, std::vector<ContactPoint>&) const;
+    std::vector<ContactPoint> contact_points() const;
+    std::vector<ContactPoint> contact_points(BodyId of);
     /// Finds what happened in a step, under SoftStep by its contacts.
     void note_events();
     /// Makes forces by row and walls from what the user gave.

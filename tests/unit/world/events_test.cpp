@@ -58,18 +58,55 @@ World busy() {
 TEST(Events, ContactsOfABodyAreThoseOfAllThatHaveIt) {
     World world = busy();
     run(world, 2, 1.0 / 60);
-    const auto all = world.contacts();
     std::size_t in_pairs = 0, at_walls = 0;
-    for (const BodyId id : world.ids()) {
-        std::vector<ContactPoint> expected;
-        for (const ContactPoint& point : all)
-            if (point.shapes.a.body == id || point.shapes.b.body == id) expected.push_back(point);
-        EXPECT_EQ(world.contacts(id), expected);
-        for (const ContactPoint& point : expected) ++(point.shapes.at_wall() ? at_walls : in_pairs);
-    }
-    EXPECT_GT(at_walls, 0u);
-    EXPECT_EQ(in_pairs + 2 * at_walls, 2 * all.size());
+    const auto expect_same = [&] {
+        const auto all = world.contacts();
+        in_pairs = at_walls = 0;
+        for (const BodyId id : world.ids()) {
+            std::vector<ContactPoint> expected;
+            for (const ContactPoint& point : all)
+                if (point.shapes.a.body == id || point.shapes.b.body == id) expected.push_back(point);
+            EXPECT_EQ(world.contacts(id), expected);
+            for (const ContactPoint& point : expected) ++(point.shapes.at_wall() ? at_walls : in_pairs);
+        }
+        EXPECT_GT(at_walls, 0u);
+        EXPECT_EQ(in_pairs + 2 * at_walls, 2 * all.size());
+    };
+    expect_same();
+    test::restore_from(world, world);
+    for (const BodyId id : world.ids()) EXPECT_TRUE(world.contacts(id).empty());
+    world.step(1.0 / 60);
+    expect_same();
+    // Those of one that is gone are nobody's, nor its successor's under the same index.
+    const BodyId gone = world.contacts().back().shapes.b.body;
+    world.remove(gone);
+    const BodyId next = world.add(Body{.position = {0, 30}});
+    EXPECT_EQ(next.index, gone.index);
+    expect_same();
+    EXPECT_TRUE(world.contacts(next).empty());
+    EXPECT_THROW(world.contacts(gone), Error);
+    run(world, 8, 1.0 / 60);  // some sleep
+    expect_same();
+    world.remove(next);
     EXPECT_THROW(world.contacts(BodyId{}), Error);
+}
+
+TEST(Events, ContactsOfABodyThatAForceAsksForInAStepAreNotKept) {
+    World world = busy();
+    std::size_t asked = 0;
+    const BodyId first = world.ids()[3];
+    for (const BodyId id : world.ids())
+        if (world.body(id).kind == Kind::dynamic) world.set_velocity(id, {40, 25}, 0);  // so that some are found late
+    world.add(UserForce{
+        .add = [&](const Snapshot&, std::span<Vec2>, std::span<double>) { asked += world.contacts(first).size(); }});
+    for (int n = 0; n < 120; ++n) {
+        world.step(1.0 / 60);
+        std::vector<ContactPoint> expected;
+        for (const ContactPoint& point : world.contacts())
+            if (point.shapes.a.body == first || point.shapes.b.body == first) expected.push_back(point);
+        EXPECT_EQ(world.contacts(first), expected);
+    }
+    EXPECT_GT(asked, 0u);
 }
 
 TEST(Events, OfABallThatBouncesOnTheFloor) {
