@@ -88,6 +88,8 @@ Body ready(const TrackExpression& track, const Reader& reader, const Json& item,
         };
     };
     const auto x = coordinate(track.x, "x"), y = coordinate(track.y, "y");
+    if (track.closed && track.segments < 2)
+        throw(place / "segments").expected("2 lines or more, for a curve that is closed", item["segments"]);
     Chain chain{.points = {}, .closed = track.closed};
     for (int k = 0; k < track.segments + !track.closed; ++k) {
         const double part = double(k) / track.segments, s = (1 - part) * track.from + part * track.to;

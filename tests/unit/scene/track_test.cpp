@@ -51,6 +51,8 @@ TEST(Tracks, SayWhatIsWrongWithThem) {
               "f: builders[0].y must be an expression of s and the parameters, got \"t\": there is no 't' here");
     EXPECT_EQ(complaint(R"-("body": {"kind": "dynamic"})-"),
               "f: builders[0].body.kind must be fixed or driven, for a curve has no mass, got \"dynamic\"");
+    EXPECT_EQ(complaint(R"-("segments": 1, "closed": true)-"),
+              "f: builders[0].segments must be 2 lines or more, for a curve that is closed, got 1");
     EXPECT_EQ(complaint(R"-("x": "0", "segments": 4)-"),
               "f: builders[0] must lead on, and does not before s = 0.25: it is at (0, 0) m again");
 }
