@@ -20,6 +20,9 @@ struct ManifoldPoint {
     std::uint32_t id = 0;
 
     static constexpr std::uint32_t features = 0xffff, left = 0x10000, right = 0x20000;
+    /// Whether it is a corner of b that meets an edge of a, or a wall, and not the other way round; of two corners
+    /// neither.
+    bool is_on_edge_of_a() const { return (id & 0xff) < edge_feature(0); }
 };
 
 struct Manifold {

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "forces/dynamics.hpp"
 #include "solvers/islands.hpp"
 #include "solvers/mechanism.hpp"
 #include "solvers/passage.hpp"
@@ -11,11 +12,11 @@ namespace carom {
 
 namespace {
 
-/// How bodies go on whose few contacts are solved precisely.
+/// How bodies go on in the next h [s] whose few contacts are solved precisely.
 class Prospect {
   public:
-    Prospect(const PreciseIslands& islands, const SoftScene& scene, State& state, SoftContacts& contacts)
-        : islands_(islands), scene_(scene), state_(state), contacts_(contacts) {}
+    Prospect(const PreciseIslands& islands, const SoftScene& scene, State& state, SoftContacts& contacts, double h)
+        : islands_(islands), scene_(scene), state_(state), contacts_(contacts), h_(h) {}
 
     /// Whether it is known what acts on the two of a contact: of what joints give it is not.
     bool knows(const SoftContact& c) const {
@@ -23,17 +24,17 @@ class Prospect {
         return islands_.hold(c) && !is_joined(c.a) && !is_joined(c.b);
     }
     double spin(std::uint32_t row) const { return row < state_.size() ? state_.v.angular[row] : 0; }
-    /// What forces and contacts do to a body just now.
+    /// What forces and contacts do to a body just now; and what its curve does to a driven one, in the mean.
     Twist acceleration(std::uint32_t row) {
-        if (!moves(scene_, row)) return {};
+        if (!moves(scene_, row)) return row < state_.size() ? of_curve(row) : Twist{};
         Twist all = of_forces(row);
         for (const SoftContact& c : contacts_.all)
             if (c.a == row || c.b == row) add(c, row, all);
         return all;
     }
-    /// Whether its two come together by more than the slowest that may land, in the next h [s].
-    bool moves_on(const SoftContact& c, double h) const {
-        return closing_speed(state_, c.a, c.b, contacts_) * h > slow * c.size;
+    /// Whether its two come together by more than the slowest that may land.
+    bool moves_on(const SoftContact& c) const {
+        return closing_speed(state_, c.a, c.b, contacts_) * h_ > slow * c.size;
     }
     /// Whether something bore one of the two in the substep before.
     bool leans(const SoftContact& c) const {
@@ -50,12 +51,22 @@ class Prospect {
     }
     /// Of a point by its lever, where its body moves so, or is accelerated so.
     static Vec2 of_point(const Twist& body, Vec2 lever) { return body.velocity + cross(body.angular_velocity, lever); }
-    /// When the two of a contact touch with another point; h [s] if they do not before.
-    double touching(const SoftContact& c, double h);
+    /// When the two of a contact touch with another point; h if they do not before.
+    double touching(const SoftContact& c);
 
   private:
     static constexpr double slow = 1e-6;  ///< of the size in a substep
 
+    Twist of_curve(std::uint32_t row) {
+        const Dynamics& dynamics = scene_.flight.dynamics;
+        if (!dynamics.places()) return {};
+        if (!end_) {
+            end_ = state_, end_->time += h_;
+            dynamics.place_driven(*end_);
+        }
+        const Motion &before = state_.v, &after = end_->v;
+        return {(1 / h_) * (after.linear[row] - before.linear[row]), (after.angular[row] - before.angular[row]) / h_};
+    }
     Twist of_forces(std::uint32_t row) {
         const Dynamics& dynamics = scene_.flight.dynamics;
         if (dynamics.is_free_flight()) return {dynamics.gravity(), 0};
@@ -84,21 +95,23 @@ class Prospect {
     const SoftScene& scene_;
     State& state_;
     SoftContacts& contacts_;
+    double h_;
+    std::optional<State> end_;  ///< with those in their places then whom curves drive
     bool is_evaluated_ = false;
 };
 
-double Prospect::touching(const SoftContact& c, double h) {
+double Prospect::touching(const SoftContact& c) {
     constexpr double anywhere = 1e300;
     constexpr double grazes = 0.999;  // of the radii: the way past a corner
     const Frame &a = contacts_.motion.frames[c.a], &b = contacts_.motion.frames[c.b];
     const Vec2 between = b.position - a.position;
     const Manifold m = look(scene_, c.candidate(), a, b, anywhere);
-    double first = h;
+    double first = h_;
     for (int k = 0; k < m.count; ++k) {
         const auto [lever_a, lever_b] = levers(c, m, k, between);
         const Vec2 v = velocity_at(state_, c.b, lever_b) - velocity_at(state_, c.a, lever_a);
         const double gap = std::max(m.point[k].gap, 0.0), rate = dot(v, m.normal);
-        if (-rate * h <= std::max(slow * c.size, 0.5 * gap)) continue;
+        if (-rate * h_ <= std::max(slow * c.size, 0.5 * gap)) continue;
         const auto of_core = [&](std::uint32_t row, Vec2 core) {
             return of_point(acceleration(row), core) - spin(row) * spin(row) * core;
         };
@@ -176,8 +189,8 @@ double await_landing(Prospect& prospect, SoftContacts& contacts, double h, doubl
     };
     for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {
         const SoftContact& c = contacts.all[i];
-        if (!prospect.moves_on(c, h) || !prospect.knows(c) || !prospect.leans(c)) continue;
-        if (const double time = prospect.touching(c, h); time < h) landings.push_back({i, time});
+        if (!prospect.moves_on(c) || !prospect.knows(c) || !prospect.leans(c)) continue;
+        if (const double time = prospect.touching(c); time < h) landings.push_back({i, time});
     }
     // Who passes more corners of a chain than there are parts left strikes several in one. Going straight on he would
     // meet up to twice as many as he does.
@@ -203,7 +216,7 @@ double await_landing(Prospect& prospect, SoftContacts& contacts, double h, doubl
 double await_change(const PreciseIslands& islands, const SoftScene& scene, State& state, SoftContacts& contacts,
                     double h, double least) {
     if (islands.all.empty() || !are_foreseen(contacts)) return h;
-    Prospect prospect(islands, scene, state, contacts);
+    Prospect prospect(islands, scene, state, contacts, h);
     return std::min(until_slip_ends(prospect, state, contacts, h), await_landing(prospect, contacts, h, least));
 }
 

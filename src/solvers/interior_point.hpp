@@ -65,6 +65,7 @@ class InteriorPoint {
     double mean_product() const;
     double lack(const Edge& edge) const;
     double worst_lack() const;
+    bool fits(double part) const;
     double imbalance() const;
     /// Whether it is so near the solution for slips that are held: products are such a part of the first ones.
     bool is_near(double part, double of_products) const;
@@ -74,7 +75,7 @@ class InteriorPoint {
     Scratch<double> v_, step_;
     Scratch<Contact> contacts_;
     Scratch<Edge> edges_;
-    double fastest_ = 0;  ///< [m/s], of what moves and of what is wanted
+    double fastest_ = 0;  ///< [m/s], of what moves and of what comes together
 };
 
 }  // namespace carom

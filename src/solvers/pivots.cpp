@@ -55,8 +55,7 @@ Frame frame_ahead(const State& state, const BodyMotion& motion, std::uint32_t ro
 
 namespace {
 
-/// Where the bodies of a contact meet at the end of a substep: at the point that was found in the middle, or where a
-/// round rim has rolled on to since.
+/// Where the bodies of a contact meet at the end of a substep: a corner, and what it has gone on to since the middle.
 struct Meeting {
     Vec2 normal, core_a, core_b;  ///< from the bodies' positions
 };
@@ -67,20 +66,18 @@ Vec2 turned_on(Vec2 normal, double angle) {
     return m / length(m);
 }
 
-/// As much as two turn alike: so do sides that lie on one another, and their normal.
-double common(double spin_a, double spin_b) {
-    return spin_a * spin_b <= 0 ? 0 : std::abs(spin_a) < std::abs(spin_b) ? spin_a : spin_b;
+/// How corners go round one another of which one is round.
+Meeting go_round(Vec2 between, Meeting m) {
+    const Vec2 way = between + m.core_b - m.core_a;
+    if (dot(way, m.normal) > 0) m.normal = way / length(way);
+    return m;
 }
 
-/// How a round rim meets a corner, or a straight edge that has turned by so much [rad] since its foot was found there.
-Meeting roll_on(const SoftContact& c, bool edge_of_a, double turned, Vec2 between, Meeting m) {
-    const Vec2 way = between + m.core_b - m.core_a;
-    if (c.manifold.corners) {
-        if (dot(way, m.normal) > 0) m.normal = way / length(way);
-        return m;
-    }
+/// How a corner, or a round rim, goes on along a straight edge that has turned by so much [rad] since its foot was
+/// found there: the normal is the edge's.
+Meeting go_along(bool edge_of_a, double turned, Vec2 between, Meeting m) {
     m.normal = turned_on(m.normal, turned);
-    const Vec2 aside = way - dot(way, m.normal) * m.normal;
+    const Vec2 way = between + m.core_b - m.core_a, aside = way - dot(way, m.normal) * m.normal;
     (edge_of_a ? m.core_a : m.core_b) += (edge_of_a ? 1 : -1) * aside;
     return m;
 }
@@ -97,31 +94,26 @@ void turn_levers(double h, SoftContacts& contacts) {
         const std::uint32_t k = c.row;
         const Mover &a = movers[c.a], &b = movers[c.b];
         const Vec2 n{block.normal_x[k], block.normal_y[k]}, between = frames[c.b].position - frames[c.a].position;
-        const bool rolls = c.manifold.count == 1 && (rounds_a_corner(c) || (c.is_single && !c.at_wall));
-        const bool edge_of_a = c.piece_a < contacts.pieces.tags.size() && !contacts.pieces.tags[c.piece_a].is_single;
         const auto speed = [&](const Meeting& m) {
             const Vec2 on_a = m.core_a + c.radius_a * m.normal, on_b = m.core_b - c.radius_b * m.normal;
             return Vec2{b.vx, b.vy} + cross(b.w, on_b) - Vec2{a.vx, a.vy} - cross(a.w, on_a);
         };
         for (int i = 0; i < c.manifold.count; ++i) {
             auto& more = block.more[i];
+            // Gaps stay those between the points that the first half brought together.
             Meeting end{n, frames[c.a].turn({more.core_a_x[k], more.core_a_y[k]}),
                         frames[c.b].turn({more.core_b_x[k], more.core_b_y[k]})};
-            if (rolls)
-                end = roll_on(c, edge_of_a, 0.5 * h * (edge_of_a ? a : b).w, between, end);
-            else if (c.manifold.count == 2)
-                end.normal = turned_on(n, 0.5 * h * common(a.w, b.w));
+            if (rounds_a_corner(c))
+                end = go_round(between, end);
+            else if (const bool of_a = c.manifold.point[i].is_on_edge_of_a(); !c.manifold.corners)
+                end = go_along(of_a, 0.5 * h * (of_a ? a : b).w, between, end);
             const Vec2 now = speed(end);
             const Vec2 of_block = Vec2{b.vx, b.vy} + cross(b.w, lever_b_of(block, i, k)) - Vec2{a.vx, a.vy} -
                                   cross(a.w, lever_a_of(block, i, k));
             more.turned_normal[k] = dot(end.normal, now) - dot(n, of_block);
             more.turned_tangent[k] = cross(end.normal, now) - cross(n, of_block);
-            if (!rolls) continue;
-            const Vec2 core_a = frames[c.a].turn_back(end.core_a), core_b = frames[c.b].turn_back(end.core_b);
-            more.core_a_x[k] = core_a.x, more.core_a_y[k] = core_a.y;
-            more.core_b_x[k] = core_b.x, more.core_b_y[k] = core_b.y;
-            block.corners[k] = 0;
         }
+        block.corners[k] = 0;
     }
 }
 
