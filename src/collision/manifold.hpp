@@ -28,8 +28,9 @@ struct ManifoldPoint {
 struct Manifold {
     Vec2 normal{};  ///< from a to b
     int count = 0;
-    bool corners = false;  ///< of both it is a corner that is nearest: the normal turns as they pass
-    bool beside = false;   ///< one is over a neighbour of the other, a piece of a chain that bends towards it
+    bool corners = false;          ///< of both it is a corner that is nearest: the normal turns as they pass
+    bool beside = false;           ///< one is over a neighbour of the other, a piece of a chain that bends towards it
+    bool past_neighbours = false;  ///< it is of one piece of a chain as if that were alone
     ManifoldPoint point[2];
 };
 /// The gap of the nearer point [m]; 0 if there is none. Outlines that do not overlap are no nearer than that.

@@ -250,7 +250,7 @@ void begin(const State& state, const Manifold& manifold, double h, const SoftCon
     const Vec2 between = contacts.motion.frames[c.b].position - contacts.motion.frames[c.a].position;
     c.seen = {least_gap(c.manifold), between, angle(c.a), angle(c.b)};
     c.thickness = std::min(c.size, c.least_thickness);
-    c.fast = is_fast(state, h, c.a, c.b, c.least_thickness, contacts);
+    c.fast = manifold.past_neighbours || is_fast(state, h, c.a, c.b, c.least_thickness, contacts);
     const auto is_disc = [&](std::uint32_t piece) { return contacts.pieces.tags[piece].is_single; };
     const bool are_discs = !c.at_wall && is_disc(c.piece_a) && is_disc(c.piece_b);  // with no other corner to come
     c.turns = !are_discs && turns(Encounter(c), state, contacts.outlook.ahead);
@@ -266,16 +266,16 @@ Near without_contact(Near near, const SoftContacts& contacts) {
     return near;
 }
 
-/// Of a piece of a chain that has no contact, for a neighbour has it: with who is so fast that he may strike it in the
-/// same substep, as if there were no neighbour. Whose it is where he comes down is told there.
+/// Of a piece of a chain that has no contact, for a neighbour has it: with who may strike it in the same substep, as if
+/// there were no neighbour. Whose it is where he comes down is told there.
 void look_past_neighbours(const SoftScene& scene, const State& state, double h, const Near& near,
                           const SoftContacts& contacts, Manifold& manifold) {
     const Candidate& c = contacts.search.candidates[near.candidate];
     manifold.count = 0;
-    if (!is_at_chain(c, contacts.pieces) || !is_fast(state, h, near.a, near.b, thickness(c, contacts.pieces), contacts))
-        return;
+    if (!is_at_chain(c, contacts.pieces) || !may_land_on(scene, state, h, near, contacts)) return;
     const auto& frames = contacts.motion.frames;
     make_at(manifold, [&] { return look_beside(scene, c, frames[near.a], frames[near.b], near.margin); });
+    manifold.past_neighbours = true;
     if (least_gap(manifold) < 0) manifold.count = 0;
 }
 

@@ -58,27 +58,77 @@ bool is_spare(const Piece& piece, double way) {
     return stride * (bend(outline.previous_normal) + bend(outline.next_normal)) <= turn;
 }
 
+/// A piece of a chain, and somebody who is over its line or beside that.
+struct OverLine {
+    const Convex& line;
+    std::uint32_t chain, other;  ///< rows
+    std::uint32_t piece, others_piece;
+    Vec2 between;  ///< from the chain's position to the other one's
+    double radius;
+
+    OverLine(const SoftScene& scene, const Near& near, const SoftContacts& contacts)
+        : OverLine(scene, near, contacts.search.candidates[near.candidate], contacts) {}
+
+    /// Of a point of his core, seen from his position; in a substep of h [s].
+    struct Point {
+        double gap;                       ///< of his rim above the line or its prolongation [m]
+        double before_start, behind_end;  ///< by so much it is not over the line [m], if that is more than 0
+        double way, nearer;               ///< how far it may get, in any direction; and how much nearer as it goes [m]
+    };
+    Point at(Vec2 core, const State& state, double h, const SoftContacts& contacts) const {
+        constexpr double ample = 1.1;  // forces may make it faster
+        const Frame& frame = contacts.motion.frames[chain];
+        const Vec2 along = -perpendicular(line.normal[0]), there = frame.turn_back(between + core);
+        const Vec2 v = velocity_at(state, other, core) - velocity_at(state, chain, between + core);
+        return {dot(there - line.corner[0], line.normal[0]) - radius, dot(line.corner[1] - there, along),
+                dot(there - line.corner[0], along), ample * h * length(v),
+                -ample * h * dot(v, frame.turn(line.normal[0]))};
+    }
+
+  private:
+    OverLine(const SoftScene& scene, const Near& near, const Candidate& c, const SoftContacts& contacts)
+        : OverLine(scene, near, c, contacts.pieces.tags[c.piece_b].is_of_chain, contacts) {}
+    OverLine(const SoftScene& scene, const Near& near, const Candidate& c, bool of_b, const SoftContacts& contacts)
+        : line(scene.pieces[of_b ? c.piece_b : c.piece_a].outline),
+          chain(of_b ? near.b : near.a),
+          other(of_b ? near.a : near.b),
+          piece(of_b ? c.piece_b : c.piece_a),
+          others_piece(of_b ? c.piece_a : c.piece_b),
+          between(contacts.motion.frames[other].position - contacts.motion.frames[chain].position),
+          radius(contacts.pieces.tags[others_piece].radius + line.radius) {}
+};
+
 }  // namespace
 
 bool may_come(const SoftScene& scene, const State& state, double h, const Near& near, const Manifold& m,
               const SoftContacts& contacts) {
-    constexpr double ample = 1.1;  // forces may make it faster
     if (!m.beside) return true;
-    const Encounter c(near, m, contacts);
-    const bool of_b = contacts.pieces.tags[c.piece_b].is_of_chain;
-    const Frame &at_a = contacts.motion.frames[c.a], &at_b = contacts.motion.frames[c.b];
-    const Vec2 between = at_b.position - at_a.position, on_a = core_a_of(false, m, 0, between),
-               on_b = m.point[0].core_b;
-    const Piece& piece = scene.pieces[of_b ? c.piece_b : c.piece_a];
-    const Convex& line = piece.outline;
-    const Vec2 along = -perpendicular(line.normal[0]),
-               there = of_b ? at_b.turn_back(on_a - between) : at_a.turn_back(between + on_b);
-    const double beyond = std::max(dot(line.corner[1] - there, along) - line.previous_length,
-                                   dot(there - line.corner[0], along) - line.next_length);
+    const OverLine over(scene, near, contacts);
+    const Vec2 between = contacts.motion.frames[near.b].position - contacts.motion.frames[near.a].position;
+    const Vec2 core = over.other == near.b ? m.point[0].core_b : core_a_of(false, m, 0, between);
+    const OverLine::Point at = over.at(core, state, h, contacts);
+    const double beyond = std::max(at.before_start - over.line.previous_length, at.behind_end - over.line.next_length);
     if (beyond <= 0) return true;  // over the next one
-    const Vec2 v = velocity_at(state, c.a, on_a) - velocity_at(state, c.b, on_b);
-    const double way = ample * h * length(v), nearer = ample * h * dot(v, m.normal);
-    return nearer > 0 && m.point[0].gap <= nearer && beyond <= way && !is_spare(piece, way);
+    return at.nearer > 0 && at.gap <= at.nearer && beyond <= at.way && !is_spare(scene.pieces[over.piece], at.way);
+}
+
+bool may_land_on(const SoftScene& scene, const State& state, double h, const Near& near, const SoftContacts& contacts) {
+    constexpr double hair = 1e-3;  // of the smaller one's size
+    const Candidate& candidate = contacts.search.candidates[near.candidate];
+    if (is_fast(state, h, near.a, near.b, thickness(candidate, contacts.pieces), contacts)) return true;
+    const OverLine over(scene, near, contacts);
+    const Convex& outline = scene.pieces[over.others_piece].outline;
+    OverLine::Point nearest{HUGE_VAL, HUGE_VAL, HUGE_VAL, 0, 0};
+    for (int i = 0; i < outline.count; ++i) {
+        const Vec2 core = contacts.motion.frames[over.other].turn(outline.corner[i]);
+        const OverLine::Point at = over.at(core, state, h, contacts);
+        nearest = {std::min(nearest.gap, at.gap), std::min(nearest.before_start, at.before_start),
+                   std::min(nearest.behind_end, at.behind_end), std::max(nearest.way, at.way),
+                   std::max(nearest.nearer, at.nearer)};
+    }
+    const double low = hair * size_of(candidate, contacts.pieces);
+    const double most = nearest.gap > low ? nearest.way : nearest.nearer;
+    return most > low && nearest.gap <= most && std::max(nearest.before_start, nearest.behind_end) <= nearest.way;
 }
 
 FromBehind comes_from_behind(const SoftScene& scene, const State& state, const Near& near, const Manifold& manifold,
@@ -153,7 +203,8 @@ void drop_covered(const SoftScene& scene, const State& state, double h, const So
         return Encounter(contacts.search.near[k], contacts.search.manifolds[k], contacts);
     };
     const Scratch<std::uint32_t> turning = those_of(scene.threads, touching, [&](std::uint32_t k) {
-        return contacts.search.manifolds[k].corners && turns(meeting(k), state, contacts.outlook.ahead);
+        const Manifold& m = contacts.search.manifolds[k];
+        return m.corners && !m.past_neighbours && turns(meeting(k), state, contacts.outlook.ahead);
     });
     if (turning.empty()) return;
     Scratch<std::uint32_t> first(scene.bodies.size() + 1, none), next(2 * touching.size(), none);

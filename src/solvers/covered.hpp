@@ -54,6 +54,9 @@ inline bool is_at_chain(const Candidate& c, const PieceTable& pieces) {
 /// Whether who is over the neighbours of a piece of a chain, if he is, may come to it in a substep of h [s]; if not
 /// that is asked again before the next one.
 bool may_come(const SoftScene&, const State&, double h, const Near&, const Manifold&, const SoftContacts&);
+/// Whether who is beside a piece of a chain, or whom a neighbour has, may come down on it in a substep of h [s] by more
+/// than a hair, as he moves or in any direction after a blow; or is fast.
+bool may_land_on(const SoftScene&, const State&, double h, const Near&, const SoftContacts&);
 /// How a body passes a piece of a chain that it has come to from behind, where nothing is solid.
 enum class FromBehind : std::uint8_t { no, now, until_out };
 /// `until_out` once it was deeper in it than it can have come from the front, and else `now` if its middle has just

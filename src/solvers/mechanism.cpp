@@ -74,6 +74,16 @@ void note_change(Mechanisms& mechanisms, std::size_t joint) {
     mechanisms.holders.forget();
 }
 
+bool is_among_holders(Mechanisms& mechanisms, BodyId id) {
+    const auto held_by_several = [&](std::uint32_t k) {
+        if (mechanisms.home[k] == no_mechanism) return false;
+        const std::vector<Member>& members = mechanisms.all[mechanisms.home[k]].members;
+        return std::count_if(members.begin(), members.end(), [](const Member& m) { return m.outside; }) > 1;
+    };
+    const Scratch<std::uint32_t> joints = mechanisms.holders.of(id, mechanisms.joints);
+    return std::any_of(joints.begin(), joints.end(), held_by_several);
+}
+
 void forget_removed(Mechanisms& mechanisms, const Bodies& bodies) {
     const auto is_held = [&bodies](const Joint& joint) {
         return bodies.contains(joint.b) && (!joint.a || bodies.contains(*joint.a));

@@ -215,6 +215,8 @@ void add(Mechanisms&, JointId, const Joint&);
 void erase(Mechanisms&, std::size_t joint);
 /// To be called when a joint is changed.
 void note_change(Mechanisms&, std::size_t joint);
+/// Whether where a body is that nothing moves decided how a mechanism was assembled: it is one of several that hold it.
+bool is_among_holders(Mechanisms&, BodyId);
 /// Drops the joints of bodies that are gone.
 void forget_removed(Mechanisms&, const Bodies&);
 using NumberedJoint = std::pair<JointId, Joint>;

@@ -124,7 +124,12 @@ double Passage::little_way(const SoftContact& c, const Partner& a, const Partner
     constexpr double part = 0.1;
     const double extent = std::min(contacts_.pieces.extent[c.a], contacts_.pieces.extent[c.b]),
                  turning = of_turning(c, a, b, [](const Partner&p) { return std::abs(p.w); });
-    return part * thickness(c.candidate(), contacts_.pieces) / (length(b.v - a.v) + turning * extent);
+    const auto least = [&](std::uint32_t piece) {
+        const Convex& outline = scene_.pieces[piece].outline;
+        return outline.one_sided ? outline.width : HUGE_VAL;  // he is not to be past a line that is short
+    };
+    const double width = std::min(least(c.piece_a), least(c.piece_b));
+    return part * std::min(width, thickness(c.candidate(), contacts_.pieces)) / (length(b.v - a.v) + turning * extent);
 }
 
 double Passage::stay_apart(const SoftContact& c, double from, const Partner& a, const Partner& b) const {

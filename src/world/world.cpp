@@ -219,6 +219,8 @@ void World::set_position(BodyId id, Vec2 position, double angle) {
     validate_field(angle, "World::set_position: angle", "rad", any);
     state_->check_off_curve(id, "World::set_position");
     state_->edit();
+    // Whether a chain is taut depends on where it ends.
+    if (state_->bodies.inverse_mass[row] == 0 && is_among_holders(state_->mechanisms, id)) state_->change();
     state_->stir(id);
     state_->soft_contacts.forget_search();
     state_->motion.x.linear[row] = position;
