@@ -146,6 +146,27 @@ TEST(Grid, CostsAsMuchForEachOfMoreDiscs) {
     }
 }
 
+TEST(Grid, FindsDiscsAroundPlacesOfAnySize) {
+    for (const bool periodic : {false, true}) {
+        Discs d = random_discs(400, 2, 20, periodic, 8);
+        d.radius[0] = 300, d.radius[1] = 1e-4;  // with levels between in which there is nobody
+        Grid grid;
+        grid.build(d.centre, d.radius, d.box);
+        std::vector<std::uint32_t> near;
+        for (double radius = 1e-5; radius < 1e4; radius *= 1.3) {
+            const Vec2 x{std::sin(radius) * 8, std::cos(radius) * 8};
+            near.clear();
+            grid.near(x, radius, near);
+            std::sort(near.begin(), near.end());
+            ASSERT_EQ(std::adjacent_find(near.begin(), near.end()), near.end());
+            for (std::uint32_t j = 0; j < d.centre.size(); ++j) {
+                if (length(nearest_image(d.box, d.centre[j] - x)) >= radius + d.radius[j]) continue;
+                ASSERT_TRUE(std::binary_search(near.begin(), near.end(), j)) << radius << " misses " << j;
+            }
+        }
+    }
+}
+
 TEST(NearestImage, IsTheShortestWay) {
     const Periodic box{{1, 2}, {4, 4}};
     Random random(1);
