@@ -10,13 +10,13 @@
 namespace carom {
 namespace {
 
-enum class Solid { fixed, driven, stepped };
+enum class SolidIs { fixed, driven, stepped };
 
-World room_with(Solid kind, Vec2 start, double radius, bool relax) {
+World room_with(SolidIs kind, Vec2 start, double radius, bool relax) {
     World world({.solver = Events{.relax = relax}});
     world.add(Rectangle{.low = {0, 0}, .high = {10, 10}});
     Body block{.position = {5, 5}, .angle = 0.5, .shapes = {{.geometry = Box{4, 2}}}, .name = "block"};
-    if (kind != Solid::stepped) block.kind = kind == Solid::fixed ? Kind::fixed : Kind::driven;
+    if (kind != SolidIs::stepped) block.kind = kind == SolidIs::fixed ? Kind::fixed : Kind::driven;
     world.add(block);
     world.add(Body{.position = start, .velocity = {1, 0.3}, .radius = radius, .name = "p"});
     return world;
@@ -28,7 +28,7 @@ Vec2 in_block(double along, double across) {
            Vec2{along * std::cos(0.5) - across * std::sin(0.5), along * std::sin(0.5) + across * std::cos(0.5)};
 }
 
-std::string refusal(World world) {
+std::string refusal_of(World world) {
     try {
         world.step(0.01);
     } catch (const Error& error) {
@@ -37,18 +37,18 @@ std::string refusal(World world) {
     return "";
 }
 
-class DiscInASolid : public testing::TestWithParam<Solid> {};
+class DiscInASolid : public testing::TestWithParam<SolidIs> {};
 
 TEST_P(DiscInASolid, IsRefusedWithItsDepth) {
     const auto has = [](const std::string& said, const char* what) {
         EXPECT_NE(said.find(what), std::string::npos) << said;
     };
-    has(refusal(room_with(GetParam(), in_block(0, 0.25), 0.1, false)), "do: bodies 'p' and 'block' by 0.85 m. Move");
-    has(refusal(room_with(GetParam(), in_block(-1.95, 0.25), 0.1, false)),
+    has(refusal_of(room_with(GetParam(), in_block(0, 0.25), 0.1, false)), "do: bodies 'p' and 'block' by 0.85 m. Move");
+    has(refusal_of(room_with(GetParam(), in_block(-1.95, 0.25), 0.1, false)),
         "do: bodies 'p' and 'block' by 0.15 m. Move");
-    has(refusal(room_with(GetParam(), in_block(0, 1.0625), 0.1, false)),
+    has(refusal_of(room_with(GetParam(), in_block(0, 1.0625), 0.1, false)),
         "do: bodies 'p' and 'block' by 0.0375 m. Move");
-    EXPECT_EQ(refusal(room_with(GetParam(), in_block(0, 1.1), 0.1, false)), "");
+    EXPECT_EQ(refusal_of(room_with(GetParam(), in_block(0, 1.1), 0.1, false)), "");
 }
 
 TEST_P(DiscInASolid, IsMovedOutOfItTheShortestWay) {
@@ -62,13 +62,13 @@ TEST_P(DiscInASolid, IsMovedOutOfItTheShortestWay) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, DiscInASolid, testing::Values(Solid::fixed, Solid::driven, Solid::stepped));
+INSTANTIATE_TEST_SUITE_P(All, DiscInASolid, testing::Values(SolidIs::fixed, SolidIs::driven, SolidIs::stepped));
 
 // Points lie on rims and corners, where rounding is no depth.
 TEST(PointOnTheRimOfASolid, MayBegin) {
     for (const Vec2 at : {in_block(0.7, 1), in_block(2, -0.3), in_block(2, 1), in_block(-2, -1)})
-        EXPECT_EQ(refusal(room_with(Solid::fixed, at, 0, false)), "");
-    EXPECT_NE(refusal(room_with(Solid::fixed, in_block(0.7, 1 - 1e-6), 0, false)), "");
+        EXPECT_EQ(refusal_of(room_with(SolidIs::fixed, at, 0, false)), "");
+    EXPECT_NE(refusal_of(room_with(SolidIs::fixed, in_block(0.7, 1 - 1e-6), 0, false)), "");
 }
 
 }  // namespace

@@ -11,11 +11,11 @@ namespace carom {
 namespace {
 
 /// A box between two discs in a room; all lie on the floor, or come to.
-struct Room {
+struct RoomWithABox {
     World world{{.gravity = {0, -9.81}, .solver = Events{}}};
     BodyId low, high, box;
 
-    Room() {
+    RoomWithABox() {
         const Side side{.restitution = 0.5};
         world.add(Rectangle{{0, 0}, {10, 6}, side, side, side, side});
         low = world.add(Body{.position = {2, 0.5}, .radius = 0.15, .restitution = 0.5});
@@ -39,7 +39,7 @@ struct Room {
 };
 
 TEST(DiscOfAGasThatGotASpring, LiesOnTheFloor) {
-    Room room;
+    RoomWithABox room;
     room.step(6);
     room.world.add(Spring{.a = room.low, .b = room.box, .stiffness = 0.01});
     room.step(60);
@@ -47,7 +47,7 @@ TEST(DiscOfAGasThatGotASpring, LiesOnTheFloor) {
 }
 
 TEST(DiscOfAGasThatGotAJoint, LiesOnTheFloor) {
-    Room room;
+    RoomWithABox room;
     room.step(6);
     const Vec2 pivot = room.world.position(room.low) + Vec2{0.4, 0.2};
     room.world.add(Joint{.b = room.low, .at = pivot, .type = RevoluteJoint{}});
@@ -60,7 +60,7 @@ TEST(DiscOfAGasThatGotAJoint, LiesOnTheFloor) {
 
 // As many are moved in steps as before, and others.
 TEST(DiscOfAGasThatLostAJoint, FliesAndAnotherHangs) {
-    Room room;
+    RoomWithABox room;
     const JointId first = room.world.add(
         Joint{.b = room.low, .at = room.world.position(room.low) + Vec2{0.1, 0.4}, .type = RevoluteJoint{}});
     room.step(20);
