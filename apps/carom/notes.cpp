@@ -34,14 +34,24 @@ bool is_point(const World& world, const ShapeId& shape) {
     return body.radius == 0 && body.shapes.empty();
 }
 
+/// Whether it is of a disc of an exact gas, which does not start so: it is refused, or moved.
+bool is_of_gas(const World& world, const Overlap& overlap) {
+    if (!std::holds_alternative<Events>(world.settings().solver)) return false;
+    const auto is_free = [&](const ShapeId& shape) {
+        return shape.body.generation != 0 && world.body(shape.body).kind == Kind::dynamic &&
+               !world.in_steps(shape.body);
+    };
+    return is_free(overlap.shapes.a) || is_free(overlap.shapes.b);
+}
+
 /// What is inside of one another by more than what may be meant to be pressed together.
 std::vector<Overlap> deep_overlaps(const World& world) {
     constexpr double much = 0.01;  // of what is thinner
+    if (std::holds_alternative<NoContact>(world.settings().solver)) return {};
     const auto* const impulse = std::get_if<Impulse>(&world.settings().solver);
-    if (!impulse && !std::holds_alternative<SoftStep>(world.settings().solver)) return {};
     std::vector<Overlap> deep = world.overlaps();
-    std::erase_if(deep, [impulse](const Overlap& o) {
-        return o.part < much || (impulse && !impulse->disc_collisions && !o.shapes.at_wall());
+    std::erase_if(deep, [&](const Overlap& o) {
+        return o.part < much || (impulse && !impulse->disc_collisions && !o.shapes.at_wall()) || is_of_gas(world, o);
     });
     return deep;
 }

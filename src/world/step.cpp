@@ -139,6 +139,7 @@ void World::State::derive() {
                         name_of(settings.integrator)));
     const auto apart = mechanisms.apart;
     const auto rests = may_rest;
+    const auto in_steps = together.company.of_rows();
     dynamics = Dynamics(current_forces(), bodies, settings.threads, periodic);
     walls = Walls(rectangles, half_planes, stadiums, periodic);
     assemble(mechanisms, bodies, motion.x);
@@ -151,7 +152,8 @@ void World::State::derive() {
     any_sensor = has_sensor(bodies);
     beyond_solver = row_beyond(settings.solver, bodies, walls);
     may_rest = soft && (soft->sleep || soft->statics) ? only_weighed(forces, bodies) : std::vector<bool>(bodies.size());
-    if (changed == Changed::all || mechanisms.apart != apart || may_rest != rests)
+    const bool same = mechanisms.apart == apart && may_rest == rests && together.company.of_rows() == in_steps;
+    if (changed == Changed::all || !same)  // of pieces that are not those of now, too, if others are moved in steps
         soft_contacts.forget_search();
     else
         note_asleep(soft_contacts.rest, mechanisms);

@@ -121,21 +121,49 @@ Overlaps of_pairs(const GasScene& scene, const State& state) {
     return found;
 }
 
+/// How deep a disc is in a body, or beyond a wall.
+struct Depth {
+    std::uint32_t row;  ///< of the body
+    double depth;
+};
+
+/// In each of them once, as far as it is deepest: outlines are many lines.
+std::vector<Depth> depths(const GasScene& scene, const State& state, std::size_t row,
+                          const std::vector<GasObstacle>& obstacles) {
+    const double r = scene.bodies.radius[row];
+    const Vec2 place = state.x.linear[row];
+    std::vector<Depth> found;
+    const auto note = [&](std::uint32_t of, double depth, double by_rounding) {
+        if (depth <= by_rounding) return;
+        const auto known = std::find_if(found.begin(), found.end(), [of](const Depth& d) { return d.row == of; });
+        if (known == found.end()) return found.push_back({of, depth});
+        known->depth = std::max(known->depth, depth);
+    };
+    for (const GasObstacle& o : obstacles) {
+        const Vec2 x = nearest_image(scene.walls.periodic, place - o.a);
+        note(o.row, -gap_to(o, {x, {}, {}, r}), deepest * (r + o.radius) + 1e-12 * length(x));
+    }
+    for (const Piece& piece : scene.pieces) {
+        if (scene.bodies.inverse_mass[piece.row] != 0 || piece.sensor) continue;
+        const Frame at = frame_at(state.x.linear[piece.row], state.x.angular[piece.row]);
+        const Vec2 corner = at.position + at.turn(piece.outline.corner[0]);
+        const Vec2 x = nearest_image(scene.walls.periodic, place - corner);
+        note(piece.row, way_out(piece, at, x, r).depth, deepest * r + 1e-12 * (length(x) + piece.outline.width));
+    }
+    return found;
+}
+
 Overlaps with_obstacles(const GasScene& scene, const State& state) {
     const Bodies& bodies = scene.bodies;
     Overlaps found;
     const auto obstacles = obstacles_of(scene.walls, bodies, state, scene.pieces);
     for (std::size_t row = 0; row < bodies.size(); ++row) {
         if (bodies.inverse_mass[row] == 0) continue;
-        for (const GasObstacle& o : obstacles) {
-            const Vec2 x = nearest_image(scene.walls.periodic, state.x.linear[row] - o.a);
-            const double r = bodies.radius[row], gap = gap_to(o, {x, {}, {}, r});
-            if (-gap <= deepest * (r + o.radius) + 1e-12 * length(x)) continue;
-            found.push_back(
-                {-gap, o.row == GasObstacle::no_row
-                           ? fmt::format("body {} is outside the room", name_of_row(bodies, row))
-                           : fmt::format("bodies {} and {}", name_of_row(bodies, row), name_of_row(bodies, o.row))});
-        }
+        for (const Depth& in : depths(scene, state, row, obstacles))
+            found.push_back({in.depth, in.row == GasObstacle::no_row
+                                           ? fmt::format("body {} is outside the room", name_of_row(bodies, row))
+                                           : fmt::format("bodies {} and {}", name_of_row(bodies, row),
+                                                         name_of_row(bodies, in.row))});
     }
     return found;
 }

@@ -45,35 +45,55 @@ Vec2 acceleration_seen_from(const GasMover& m, const GasFlight& f) {
 
 namespace {
 
-/// The gap between a disc and a line that turns, and how fast it grows.
+/// The gap between a disc and a line that turns, how fast it grows, and how fast that does while the outline is as
+/// straight as where it is nearest.
 struct Gap {
-    double size, rate;
+    double size, rate, bend;
 };
-Gap gap_after(const GasMover& m, double after, const GasObstacle& o, const GasFlight& f, double t) {
-    const double s = after + t, w = m.w + s * m.alpha;
-    const auto turn = portable::sincos(m.angle + s * (m.w + 0.5 * s * m.alpha));
-    const auto back = [&](Vec2 p) { return turned_back(turn.cos, turn.sin, p); };
-    const Vec2 x = f.x + t * (f.v + 0.5 * t * f.g), v = f.v + t * f.g;
-    const GasFlight seen{back(x) - o.a, back(v - cross(w, x)), {}, f.radius};
-    return {gap_to(o, seen), dot(normal_at(o, seen), seen.v)};
+Gap gap_after(GasMover m, double after, const GasObstacle& o, const GasFlight& f, double t) {
+    const double s = after + t;
+    m.face(m.angle + s * (m.w + 0.5 * s * m.alpha));
+    m.w += s * m.alpha;
+    const GasFlight now{f.x + t * (f.v + 0.5 * t * f.g), f.v + t * f.g, f.g, f.radius};
+    GasFlight seen = seen_from(m, now);
+    seen.x -= o.a;
+    const Vec2 normal = normal_at(o, seen), pull = acceleration_seen_from(m, now);
+    return {gap_to(o, seen), dot(normal, seen.v), dot(normal, turned_back(m.cosine, m.sine, pull))};
 }
 
-/// A gap to what is convex falls no faster than its rate now and the acceleration of the disc, seen from the body, make
-/// it: the curvature of the outline only opens it. To go on for as long as that allows is Newton's method near the
-/// instant of the hit, and never misses it.
+/// For how long, of a time, what is no less than size + rate t + ½ bend t² - ⅙ jerk t³ is surely above zero: in a time
+/// s the last part is no more than that of a parabola, ⅙ jerk s t². So each s tells of the time until it, and the more
+/// the nearer it is to the root.
+double safe_time(const Gap& gap, double jerk, double most) {
+    const double size = std::max(gap.size, 0.0);
+    const auto known = [&](double s) {
+        const double bend = gap.bend - jerk * s / 3, inside = gap.rate * gap.rate - 2 * bend * size;
+        if (inside < 0 || (gap.rate >= 0 && bend >= 0)) return s;
+        const double root = std::sqrt(inside);
+        return std::min(s, gap.rate < 0 ? 2 * size / (root - gap.rate) : -(gap.rate + root) / bend);
+    };
+    double safe = known(most);
+    const double alike = 1.5 * std::abs(gap.bend);  // in so long, times the jerk, the bend stays what it is by half
+    if (alike < jerk * most) safe = std::max(safe, known(alike / jerk));
+    return std::max(safe, known(std::min(2 * safe, most)));
+}
+
+/// The outline is convex, and no nearer than the straight line along it where it is nearest now: the gap falls no
+/// faster than that to the line, whose acceleration is known, and the greatest jerk of the disc, seen from the body,
+/// make it. To go on for as long as that allows finds the instant of the hit at the third order, and never misses it. A
+/// disc that rolls keeps its gap, and is not nearly as slow to look at as where its acceleration was only bounded.
 double time_to_turning(const GasMover& m, double after, const GasObstacle& o, const GasFlight& f, double most) {
-    const double speed = length(f.v) + most * length(f.g), farthest = length(f.x) + most * speed;
-    const double w = std::abs(m.w + after * m.alpha) + most * std::abs(m.alpha);
-    const double pull = length(f.g) + w * (2 * speed + w * farthest) + std::abs(m.alpha) * farthest;
+    const double g = length(f.g), speed = length(f.v) + most * g, farthest = length(f.x) + most * speed;
+    const double alpha = std::abs(m.alpha), w = std::abs(m.w + after * m.alpha) + most * alpha;
+    const double jerk = 3 * alpha * (speed + w * farthest) + w * (3 * g + w * (3 * speed + w * farthest));
     const double touching = 1e-14 * (farthest + m.reach);
     constexpr int rounds = 1000;
     double t = 0;
     for (int k = 0; k < rounds && t <= most; ++k) {
         const Gap gap = gap_after(m, after, o, f, t);
         if (gap.size <= touching && gap.rate < 0) return t;
-        const double left = std::max(gap.size, 0.0), root = std::sqrt(gap.rate * gap.rate + 2 * pull * left);
-        const double safe = gap.rate < 0 ? 2 * left / (root - gap.rate) : (gap.rate + root) / pull;
-        t += std::max(safe, 1e-15 * most);
+        if (t == most) break;  // which may be no time at all
+        t += std::max(safe_time(gap, jerk, most), 1e-15 * most);
     }
     return gas_never;
 }

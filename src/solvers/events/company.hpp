@@ -126,6 +126,8 @@ class GasCompany {
     void rest();
     /// Whose row it is; none if nobody's.
     std::uint32_t of_row(std::uint32_t row) const { return row < of_row_.size() ? of_row_[row] : GasMover::none; }
+    /// The same of all rows; none if there is no company.
+    const std::vector<std::uint32_t>& of_rows() const { return of_row_; }
     /// Two that touch: the impulses of an impact, at the instant that is the disc's, and their books. The normal is
     /// from the body to the disc; afterwards the disc flies off `restitution` times as fast as it came, and at least so
     /// fast. False if that would send bodies on other ways than their own solver thought, for a blow of their own is

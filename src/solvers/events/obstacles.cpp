@@ -213,4 +213,19 @@ std::vector<GasObstacle> obstacles_of(const Walls& walls, const Bodies& bodies, 
     return all;
 }
 
+/// Through one of the faces, for the outline is convex. Of one without faces the line says how deep a disc is.
+GasWayOut way_out(const Piece& piece, const Frame& turned, Vec2 centre, double radius) {
+    const Convex& outline = piece.outline;
+    if (outline.count <= 2) return {};
+    const Vec2 x = turned.turn_back(centre) + outline.corner[0];
+    double outside = -HUGE_VAL;
+    Vec2 normal;
+    for (int i = 0; i < outline.count; ++i) {
+        const double away = dot(outline.normal[i], x - outline.corner[i]);
+        if (away > outside) outside = away, normal = outline.normal[i];
+    }
+    if (outside >= 0) return {};
+    return {turned.turn(normal), radius + outline.radius - outside};
+}
+
 }  // namespace carom

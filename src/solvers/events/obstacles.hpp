@@ -44,6 +44,14 @@ double descent(double c0, double c1, double c2);
 std::vector<GasObstacle> obstacles_of(const Walls& walls, const Bodies& bodies, const State& state,
                                       const std::vector<Piece>& pieces);
 
+/// Out of what is solid, for a disc whose centre is in it: the shortest way, and how far it is until they only touch.
+struct GasWayOut {
+    Vec2 normal{};
+    double depth = 0;  ///< 0 if the centre is not in it [m]
+};
+/// The disc's centre is seen from the first corner of the piece, whose body is turned as this frame is.
+GasWayOut way_out(const Piece& piece, const Frame& turned, Vec2 centre, double radius);
+
 /// A disc in flight: where it is at a time, as it is seen from an obstacle's point a.
 struct GasFlight {
     Vec2 x{}, v{}, g{};

@@ -37,6 +37,7 @@ class Relaxation {
     double round() {
         deepest_ = 0;
         for (std::uint32_t i = 0; i < rows_.size(); ++i) {
+            for (const Piece& piece : scene_.pieces) push_out(i, piece);
             for (const GasObstacle& o : obstacles_) push_off(i, o);
             near_.clear();
             grid_.near(place(i), radius_[i], near_);
@@ -67,6 +68,17 @@ class Relaxation {
         grid_.move(i, place(i), radius_[i]);
     }
 
+    /// Off what is solid: its lines alone would have who is beyond one of them inside.
+    void push_out(std::uint32_t i, const Piece& piece) {
+        if (scene_.bodies.inverse_mass[piece.row] != 0 || piece.sensor) return;
+        const Frame at = frame_at(state_.x.linear[piece.row], state_.x.angular[piece.row]);
+        const Vec2 corner = at.position + at.turn(piece.outline.corner[0]);
+        const Vec2 x = nearest_image(scene_.walls.periodic, place(i) - corner);
+        const GasWayOut out = way_out(piece, at, x, radius_[i]);
+        if (out.depth <= 1e-12 * (length(x) + piece.outline.width)) return;
+        deepest_ = std::max(deepest_, out.depth);
+        move(i, (out.depth + slack * (radius_[i] + piece.outline.radius)) * out.normal);
+    }
     void push_off(std::uint32_t i, const GasObstacle& o) {
         const Vec2 x = nearest_image(scene_.walls.periodic, place(i) - o.a);
         const GasFlight still{x, -some_way(i), {}, radius_[i]};

@@ -111,12 +111,29 @@ void GasRun<Queue>::watch_for_press(Slot i, const GasObstacle& o, double flown) 
     const double speed = length(discs_.disc[i].v), r = radius(i) > 0 ? radius(i) : gas_.grid.side.x;
     const double at_first = 16 * gas_.grid.side.x / gas_.set_back;  // of the fastest, or up to twice it
     if (speed > fast * std::max(at_first, length(o.v)) && flown * speed < hardly * r) ++pressed_;
-    if (pressed_ < many) return;
+    if (pressed_ >= many) end_pressed(o, "it ever faster and more often");
+}
+
+/// What moves in steps and is held where it presses discs, as by a joint and walls, comes to be in them, and strikes
+/// them wherever they turn: they fly no farther than rounding. What rests on it makes flights ten thousand times as
+/// long, and those of what it squeezes by its own energy are no shorter than that lets them.
+template <class Queue>
+void GasRun<Queue>::watch_for_wedge(Slot i, const GasObstacle& o, double flown) {
+    constexpr double rounding = 1e-12;
+    constexpr int many = 100000;
+    const double r = radius(i) > 0 ? radius(i) : gas_.grid.side.x;
+    if (flown * length(discs_.disc[i].v) < rounding * r && ++wedged_ >= many)
+        end_pressed(o, "it wherever it turns, again and again");
+}
+
+template <class Queue>
+void GasRun<Queue>::end_pressed(const GasObstacle& o, const char* how) const {
     const Bodies& bodies = scene_.bodies;
     const auto name = bodies.name.find(bodies.id[o.row].index);
-    throw Error(fmt::format("the gas has no room left: body {} presses it, and strikes it ever faster and more often",
-                            name == bodies.name.end() ? fmt::format("number {}", o.row) : "'" + name->second + "'"),
-                Error::Cause::run);
+    throw Error(
+        fmt::format("the gas has no room left: body {} presses it, and strikes {}",
+                    name == bodies.name.end() ? fmt::format("number {}", o.row) : "'" + name->second + "'", how),
+        Error::Cause::run);
 }
 
 // ---- Where discs are ------------------------------------------------------------------------------------------------
@@ -392,7 +409,9 @@ void GasRun<Queue>::hit_obstacle(Slot i, std::uint32_t k) {
     look_for_obstacles(i, again);
     const double set_off = discs_.disc[i].clock;
     move(i, as_foreseen_now(now_, again.time));
+    const double flown = discs_.disc[i].clock - set_off;
     if (o.mover != GasObstacle::no_row) {
+        watch_for_wedge(i, o, flown);
         if (!hit_mover(i, k)) foresee(i);
         return;
     }
@@ -426,7 +445,7 @@ void GasRun<Queue>::hit_obstacle(Slot i, std::uint32_t k) {
             warm_up(i, o, normal);
         else
             collide(party(i), wall, {-normal, met.restitution, met.friction, least}, books_->account);
-        if (o.moves) watch_for_press(i, o, discs_.disc[i].clock - set_off);
+        if (o.moves) watch_for_press(i, o, flown);
         if (o.endless || o.hollow)
             books_->tally.wall_impulse += scene_.bodies.mass[row] * dot(discs_.disc[i].v - before, normal);
         ++discs_.disc[i].hits;

@@ -37,6 +37,8 @@ class GasRun {
   private:
     void watch_for_jam(double due);
     void watch_for_press(Slot i, const GasObstacle& o, double flown);
+    void watch_for_wedge(Slot i, const GasObstacle& o, double flown);
+    [[noreturn]] void end_pressed(const GasObstacle& o, const char* how) const;
     void fetch_ahead();
     Slot struck_by(Slot i) const;
 
@@ -127,7 +129,8 @@ class GasRun {
     double now_ = 0;           ///< when what happens was foreseen to
     double stuck_since_ = -1;  ///< since when no time passes, and how many events that were
     std::uint64_t stuck_ = 0;
-    int pressed_ = 0;  ///< blows of what moves on discs that are far too fast and have no way to fly
+    int pressed_ = 0;  ///< blows of what moves on discs that are far too fast and have no way to fly,
+    int wedged_ = 0;   ///< and in steps on those that have none at all
     std::array<Vec2, cells_around> offset_;  ///< of the cells around
 };
 

@@ -26,6 +26,22 @@ class Notes(carom.Case):
         # Of a point where the joint is any rounding was more than its size.
         self.assertEqual(self.note({**FALL, "bodies": [{"name": "p", "position": [0, 8e-18]}], "joints": [{"type": "revolute", "b": "p"}]}), "")
 
+    # World::overlaps found them, and the notes were of other solvers alone.
+    def test_bodies_in_steps_that_overlap_beside_a_gas_were_no_note(self):
+        boxes = [{"name": name, "position": [x, 0.3], "shapes": [{"type": "box"}], "restitution": 0} for name, x in (("left", 3), ("right", 3.7))]
+        gas = {"name": "disc", "position": [1, 2], "velocity": [1, 0], "radius": 0.1}
+        scene = {**FALL, "world": {"solver": "events"}, "bodies": [*boxes, gas], "walls": [{"type": "half-plane"}]}
+        said = "note: at the start 'right' is 0.3 m inside of 'left', 'left' is 0.2 m inside of half-plane 0, 'right' is 0.2 m inside of half-plane 0. "
+        self.assertIn("carom: " + said, self.note(scene))
+        self.assertIn(said, self.carom("validate", "scene.json").stdout)
+        for apart in boxes:
+            apart["position"][1] = 0.5
+        boxes[1]["position"][0] = 5
+        self.assertEqual(self.note(scene), "")
+        # A disc of the gas is moved before it starts.
+        scene.update(world={"solver": {"method": "events", "relax": True}}, bodies=[*boxes, {**gas, "position": [1, 0.05]}])
+        self.assertEqual(self.note(scene), "")
+
     # The default restitution is 1, and a box on the floor chatters for ever.
     def test_shapes_that_lose_nothing_were_no_note(self):
         box = {"name": "crate", "position": [0, 1], "shapes": [{"type": "box", "width": 1, "height": 1}]}
