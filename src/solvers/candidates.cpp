@@ -15,7 +15,8 @@ void bound_piece(const SoftScene& scene, std::uint32_t i, SoftContacts& contacts
     const Piece& piece = scene.pieces[i];
     const Frame& frame = contacts.motion.frames[piece.row];
     make_at(pieces.placed[i], [&] { return Placed(piece.outline, frame, {}); });
-    pieces.boxes[i] = bounds(pieces.placed[i], frame.position);
+    const Aabb& box = pieces.boxes[i] = bounds(pieces.placed[i], frame.position);
+    pieces.sizes[i] = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
 }
 
 Aabb with_room(const PieceTable& pieces, const Outlook& outlook, std::size_t piece, double more) {
@@ -119,27 +120,10 @@ double time_ahead(double dt, double h, const SoftContacts& contacts) {
     return std::min(dt, reach <= very_far * size ? 2 * h : h);
 }
 
-/// How long an outline is along the side across which it is least wide [m]: the longer side of a box, and the diameter
-/// of a disc. It does not change when the outline turns.
-double length_of(const Convex& outline) {
-    double least = HUGE_VAL, length = 0;
-    for (int i = 0; outline.count > 1 && i < outline.count; ++i) {
-        const Vec2 out = outline.normal[i], along = perpendicular(out);
-        double width = 0, low = 0, high = 0;
-        for (int k = 0; k < outline.count; ++k) {
-            const Vec2 d = outline.corner[k] - outline.corner[i];
-            width = std::max(width, -dot(d, out));
-            low = std::min(low, dot(d, along)), high = std::max(high, dot(d, along));
-        }
-        if (width < least) least = width, length = std::max(width, high - low);
-    }
-    return length + 2 * outline.radius;
-}
-
 /// Notes what pieces are like, and how far bodies stretch.
 void note_pieces(const SoftScene& scene, PieceTable& pieces) {
     pieces.placed.resize(scene.pieces.size()), pieces.boxes.resize(scene.pieces.size());
-    pieces.sizes.clear();
+    pieces.sizes.resize(scene.pieces.size());
     pieces.tags.clear(), pieces.names.clear();
     reserve_large(pieces.tags, scene.pieces.size()), reserve_large(pieces.names, scene.pieces.size());
     pieces.extent.assign(scene.bodies.size() + 1, 0);
@@ -147,7 +131,6 @@ void note_pieces(const SoftScene& scene, PieceTable& pieces) {
     for (const Piece& piece : scene.pieces) {
         const PieceTag& tag = pieces.tags.emplace_back(piece, scene.bodies);
         pieces.names.push_back({tag.id.index, tag.number});
-        pieces.sizes.push_back(length_of(piece.outline));
         if (piece.sensor) continue;  // it strikes nobody, however far it stretches
         double farthest = 0;
         for (int k = 0; k < piece.outline.count; ++k)

@@ -42,7 +42,7 @@ struct PieceTable {
     std::vector<BoxName> names;  ///< in whose order their pairs are
     LargeArray<Placed> placed;   ///< as they are turned, seen from their bodies
     std::vector<Aabb> boxes;     ///< where they are
-    std::vector<double> sizes;   ///< how long they are, however turned [m]
+    std::vector<double> sizes;   ///< the longer sides of the boxes [m]
     std::vector<double> extent;  ///< how far each body's stretch from its position [m]; by row, the ground's last
 };
 
