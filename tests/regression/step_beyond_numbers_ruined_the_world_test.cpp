@@ -47,10 +47,6 @@ TEST(BeyondNumbers, AMomentOfInertiaIsRefused) {
     World world;
     EXPECT_EQ(error_of([&] { world.add(Body{.radius = 1e160, .name = "huge"}); }),
               "Body 'huge' must have a moment of inertia that a number can hold [kg m²], got inf");
-    const std::string light = "Body must have a mass and a moment of inertia whose inverses a number can hold, got ";
-    EXPECT_EQ(error_of([&] { world.add(Body{.mass = 1e-310, .radius = 0}); }), light + "1e-310 kg and 0 kg m²");
-    EXPECT_EQ(error_of([&] { world.add(Body{.moment_of_inertia = 5e-324, .radius = 1}); }),
-              light + "1 kg and 5e-324 kg m²");
     EXPECT_EQ(world.size(), 0u);
 }
 
