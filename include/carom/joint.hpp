@@ -212,7 +212,8 @@ struct PulleyJoint {
 };
 constexpr std::string_view describe(const PulleyJoint*) {
     return "A rope without mass over two points of the ground: |anchor_a − ground_a| + ratio |anchor_b − ground_b| is "
-           "its length. It pushes as well as it pulls. Either end stops a thousandth of that before its point.";
+           "its length. It pushes as well as it pulls. Either end stops before its point, by a thousandth of the "
+           "whole.";
 }
 template <std::same_as<PulleyJoint> T>
 constexpr auto fields(const T*) {

@@ -7,7 +7,7 @@
 namespace carom {
 
 std::size_t laws_of(const PulleyJoint& j, Law* law) {
-    constexpr double hair = 1e-3;  // of the rope
+    constexpr double hair = 1e-3;  // of the rope, once its length is known
     *law++ = rigid();
     for (int end = 0; end < 2; ++end) *law++ = stop({.lower = hair * j.length.value_or(0)}, {});
     return 3;

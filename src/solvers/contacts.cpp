@@ -258,8 +258,7 @@ void begin(const State& state, const Manifold& manifold, double h, const SoftCon
     c.rests = is_inside(c, contacts.outlook.reach[c.a] + contacts.outlook.reach[c.b] + speculation * c.size);
 }
 
-/// One that has no contact, to be passed over. A piece of a chain has none where a neighbour has it or has to have it,
-/// however near: who goes on along the chain comes to it in the next substep.
+/// One that has no contact, to be passed over; of a piece of a chain, too, where a neighbour has it or has to have it.
 Near without_contact(Near near, const SoftContacts& contacts) {
     constexpr double in_each_substep = -1;
     if (is_at_chain(contacts.search.candidates[near.candidate], contacts.pieces)) near.spare = in_each_substep;
@@ -427,7 +426,8 @@ void note_astray(const SoftScene& scene, const State& state, double h, const Scr
         put_in(c, h, contacts);
         note_corner(c, contacts);
         const bool was_changing = is_looked_at_anew(c), did_strike = may_strike(c);
-        c.fast = is_fast(state, h, c.a, c.b, c.least_thickness, contacts);
+        c.fast = (c.fast && is_at_chain(c.candidate(), contacts.pieces)) ||
+                 is_fast(state, h, c.a, c.b, c.least_thickness, contacts);
         c.rests = c.rests || rests(scene, state, c, h, contacts.outlook.ahead);
         note_gentle(scene, state, h, c, contacts);
         let_bounce(c, contacts);

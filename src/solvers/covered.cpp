@@ -118,17 +118,14 @@ bool may_land_on(const SoftScene& scene, const State& state, double h, const Nea
     if (is_fast(state, h, near.a, near.b, thickness(candidate, contacts.pieces), contacts)) return true;
     const OverLine over(scene, near, contacts);
     const Convex& outline = scene.pieces[over.others_piece].outline;
-    OverLine::Point nearest{HUGE_VAL, HUGE_VAL, HUGE_VAL, 0, 0};
+    const double low = hair * size_of(candidate, contacts.pieces);
     for (int i = 0; i < outline.count; ++i) {
         const Vec2 core = contacts.motion.frames[over.other].turn(outline.corner[i]);
         const OverLine::Point at = over.at(core, state, h, contacts);
-        nearest = {std::min(nearest.gap, at.gap), std::min(nearest.before_start, at.before_start),
-                   std::min(nearest.behind_end, at.behind_end), std::max(nearest.way, at.way),
-                   std::max(nearest.nearer, at.nearer)};
+        const double most = at.gap > low ? at.way : at.nearer;
+        if (most > low && at.gap <= most && std::max(at.before_start, at.behind_end) <= at.way) return true;
     }
-    const double low = hair * size_of(candidate, contacts.pieces);
-    const double most = nearest.gap > low ? nearest.way : nearest.nearer;
-    return most > low && nearest.gap <= most && std::max(nearest.before_start, nearest.behind_end) <= nearest.way;
+    return false;
 }
 
 FromBehind comes_from_behind(const SoftScene& scene, const State& state, const Near& near, const Manifold& manifold,

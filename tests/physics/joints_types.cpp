@@ -419,6 +419,22 @@ TEST(Handle, BetweenTwoBodiesMakesNoSpin) {
         EXPECT_LE(std::abs(energy(world).residual), 1e-4);                  // of second order
     }
 }
+// The mass that a frequency is for was another one with a bound that was never reached: 19 times the stiffness.
+TEST(Handle, HasOneStiffnessForAFrequencyWhateverDampsOrBoundsIt) {
+    const auto stiffness = [](double ratio, std::optional<double> maximum) {
+        World world = mechanism_world({}, {});
+        const Body box{.shapes = {{.geometry = Box{0.6, 0.3}}}};
+        Body other = box;
+        other.position = {2, 0};
+        const JointSpring spring{.frequency = 1, .damping_ratio = ratio};
+        const DragHandle handle{.spring = spring, .maximum = maximum};
+        const JointId id = world.add(Joint{.a = world.add(box), .b = world.add(other), .type = handle});
+        return std::get<DragHandle>(world.joint(id).type).spring->stiffness;
+    };
+    EXPECT_GT(stiffness(0, {}), 0);
+    EXPECT_EQ(stiffness(0, {}), stiffness(0, 1e9));
+    EXPECT_EQ(stiffness(0, {}), stiffness(1, {}));
+}
 // Its axes turned with a body that spins, which for the spring alone is of no use: 13 times the error in energy.
 TEST(Handle, WithoutDampingKeepsEnergyAsARodDoes) {
     const auto error_of = [](const JointType& type) {

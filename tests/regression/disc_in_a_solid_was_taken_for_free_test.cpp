@@ -6,6 +6,7 @@
 #include <carom/carom.hpp>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace carom {
 namespace {
@@ -63,6 +64,24 @@ TEST_P(DiscInASolid, IsMovedOutOfItTheShortestWay) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, DiscInASolid, testing::Values(SolidIs::fixed, SolidIs::driven, SolidIs::stepped));
+
+// The shortest way out of one piece leads over a seam into the next, which sent it back.
+TEST(DiscBetweenPiecesOfASolid, IsMovedOutOfAllOfThem) {
+    const Shape left{.geometry = Box{.width = 2, .height = 2, .centre = {-1, 0}}},
+        right{.geometry = Box{.width = 2, .height = 2, .centre = {1, 0}}},
+        angle{.geometry = Polygon{.points = {{-3, -1}, {3, -1}, {3, 1}, {0, 1}, {0, 3}, {-3, 3}}}};
+    for (const std::vector<Shape>& shapes : {std::vector{left, right}, std::vector{angle}})
+        for (const double x : {0.05, 0.1, -0.15})
+            for (const double radius : {0.2, 0.0}) {
+                World world({.solver = Events{.relax = true}});
+                world.add(Rectangle{.low = {-5, -5}, .high = {5, 5}});
+                const BodyId solid = world.add(Body{.kind = Kind::fixed, .shapes = shapes}),
+                             disc = world.add(Body{.position = {x, 0.2}, .velocity = {1, 0.3}, .radius = radius});
+                world.step(1e-3);
+                EXPECT_GT(world.closest_points(solid, disc)->distance, 0) << x << ' ' << radius;
+                EXPECT_LT(length(world.position(disc) - Vec2{x, 0.2}), 1.21 + radius) << "by the shortest way";
+            }
+}
 
 // Points lie on rims and corners, where rounding is no depth.
 TEST(PointOnTheRimOfASolid, MayBegin) {

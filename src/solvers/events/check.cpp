@@ -129,7 +129,7 @@ struct Depth {
 
 /// In each of them once, as far as it is deepest: outlines are many lines.
 std::vector<Depth> depths(const GasScene& scene, const State& state, std::size_t row,
-                          const std::vector<GasObstacle>& obstacles) {
+                          const std::vector<GasObstacle>& obstacles, const std::vector<GasSolid>& solids) {
     const double r = scene.bodies.radius[row];
     const Vec2 place = state.x.linear[row];
     std::vector<Depth> found;
@@ -143,13 +143,9 @@ std::vector<Depth> depths(const GasScene& scene, const State& state, std::size_t
         const Vec2 x = nearest_image(scene.walls.periodic, place - o.a);
         note(o.row, -gap_to(o, {x, {}, {}, r}), deepest * (r + o.radius) + 1e-12 * length(x));
     }
-    for (const Piece& piece : scene.pieces) {
-        if (scene.bodies.inverse_mass[piece.row] != 0 || piece.sensor) continue;
-        const Frame at = frame_at(state.x.linear[piece.row], state.x.angular[piece.row]);
-        const Vec2 corner = at.position + at.turn(piece.outline.corner[0]);
-        const Vec2 x = nearest_image(scene.walls.periodic, place - corner);
-        note(piece.row, way_out(piece, at, x, r).depth, deepest * r + 1e-12 * (length(x) + piece.outline.width));
-    }
+    for (const GasSolid& solid : solids)
+        note(solid.piece->row, solid.depth(solid.seen(scene.walls.periodic, place), r),
+             deepest * r + solid.rounding(place));
     return found;
 }
 
@@ -157,9 +153,10 @@ Overlaps with_obstacles(const GasScene& scene, const State& state) {
     const Bodies& bodies = scene.bodies;
     Overlaps found;
     const auto obstacles = obstacles_of(scene.walls, bodies, state, scene.pieces);
+    const auto solids = solids_of(bodies, state, scene.pieces);
     for (std::size_t row = 0; row < bodies.size(); ++row) {
         if (bodies.inverse_mass[row] == 0) continue;
-        for (const Depth& in : depths(scene, state, row, obstacles))
+        for (const Depth& in : depths(scene, state, row, obstacles, solids))
             found.push_back({in.depth, in.row == GasObstacle::no_row
                                            ? fmt::format("body {} is outside the room", name_of_row(bodies, row))
                                            : fmt::format("bodies {} and {}", name_of_row(bodies, row),

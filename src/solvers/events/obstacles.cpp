@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "math/roots.hpp"
 
@@ -213,19 +214,37 @@ std::vector<GasObstacle> obstacles_of(const Walls& walls, const Bodies& bodies, 
     return all;
 }
 
-/// Through one of the faces, for the outline is convex. Of one without faces the line says how deep a disc is.
-GasWayOut way_out(const Piece& piece, const Frame& turned, Vec2 centre, double radius) {
-    const Convex& outline = piece.outline;
-    if (outline.count <= 2) return {};
-    const Vec2 x = turned.turn_back(centre) + outline.corner[0];
-    double outside = -HUGE_VAL;
-    Vec2 normal;
-    for (int i = 0; i < outline.count; ++i) {
-        const double away = dot(outline.normal[i], x - outline.corner[i]);
-        if (away > outside) outside = away, normal = outline.normal[i];
+std::vector<GasSolid> solids_of(const Bodies& bodies, const State& state, const std::vector<Piece>& pieces) {
+    std::vector<GasSolid> all;
+    for (const Piece& piece : pieces) {
+        // Of an outline without faces the line says how deep a disc is.
+        if (bodies.inverse_mass[piece.row] != 0 || piece.sensor || piece.outline.count <= 2) continue;
+        const Frame at = frame_at(state.x.linear[piece.row], state.x.angular[piece.row]);
+        const Vec2* const corner = piece.outline.corner;
+        double extent = 0;
+        for (int i = 1; i < piece.outline.count; ++i) extent = std::max(extent, length(corner[i] - corner[0]));
+        all.push_back({&piece, at, at.position + at.turn(corner[0]), extent});
     }
-    if (outside >= 0) return {};
-    return {turned.turn(normal), radius + outline.radius - outside};
+    return all;
+}
+
+Vec2 GasSolid::seen(const std::optional<Periodic>& box, Vec2 place) const { return nearest_image(box, place - corner); }
+
+double GasSolid::beyond(int face, Vec2 seen) const {
+    const Convex& outline = piece->outline;
+    return dot(outline.normal[face], turned.turn_back(seen) + outline.corner[0] - outline.corner[face]);
+}
+
+double GasSolid::depth(Vec2 seen, double radius) const {
+    if (squared_length(seen) >= extent * extent) return 0;
+    double outside = -HUGE_VAL;
+    for (int i = 0; i < piece->outline.count; ++i) outside = std::max(outside, beyond(i, seen));
+    return outside < 0 ? radius + piece->outline.radius - outside : 0;
+}
+
+double GasSolid::rounding(Vec2 place) const {
+    constexpr double of_places = 16 * std::numeric_limits<double>::epsilon();
+    return 1e-12 * extent + of_places * (length(place) + length(corner));
 }
 
 }  // namespace carom

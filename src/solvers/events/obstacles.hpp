@@ -44,13 +44,23 @@ double descent(double c0, double c1, double c2);
 std::vector<GasObstacle> obstacles_of(const Walls& walls, const Bodies& bodies, const State& state,
                                       const std::vector<Piece>& pieces);
 
-/// Out of what is solid, for a disc whose centre is in it: the shortest way, and how far it is until they only touch.
-struct GasWayOut {
-    Vec2 normal{};
-    double depth = 0;  ///< 0 if the centre is not in it [m]
+/// What has an inside and stays where it is: a convex piece of it, seen from its first corner.
+struct GasSolid {
+    const Piece* piece;
+    Frame turned;
+    Vec2 corner;    ///< where the first one is
+    double extent;  ///< no point is farther from there [m]
+
+    /// Where a place is, seen from the first corner.
+    Vec2 seen(const std::optional<Periodic>&, Vec2 place) const;
+    /// How far such a place is outside of a face, or inside if it is below 0 [m].
+    double beyond(int face, Vec2 seen) const;
+    /// How deep a disc with its centre there is, whose shortest way out is through a face; 0 if the centre is outside.
+    double depth(Vec2 seen, double radius) const;
+    /// What of that is rounding.
+    double rounding(Vec2 place) const;
 };
-/// The disc's centre is seen from the first corner of the piece, whose body is turned as this frame is.
-GasWayOut way_out(const Piece& piece, const Frame& turned, Vec2 centre, double radius);
+std::vector<GasSolid> solids_of(const Bodies&, const State&, const std::vector<Piece>&);
 
 /// A disc in flight: where it is at a time, as it is seen from an obstacle's point a.
 struct GasFlight {

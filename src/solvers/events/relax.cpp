@@ -27,6 +27,7 @@ class Relaxation {
         : scene_(scene),
           state_(state),
           obstacles_(obstacles_of(scene.walls, scene.bodies, state, scene.pieces)),
+          solids_(solids_of(scene.bodies, state, scene.pieces)),
           start_(state.x.linear) {
         MovingDiscs discs = moving_discs(scene.bodies, state);
         grid_.build(discs.centre, discs.radius, scene.walls.periodic);
@@ -37,7 +38,7 @@ class Relaxation {
     double round() {
         deepest_ = 0;
         for (std::uint32_t i = 0; i < rows_.size(); ++i) {
-            for (const Piece& piece : scene_.pieces) push_out(i, piece);
+            push_out(i);
             for (const GasObstacle& o : obstacles_) push_off(i, o);
             near_.clear();
             grid_.near(place(i), radius_[i], near_);
@@ -68,16 +69,35 @@ class Relaxation {
         grid_.move(i, place(i), radius_[i]);
     }
 
-    /// Off what is solid: its lines alone would have who is beyond one of them inside.
-    void push_out(std::uint32_t i, const Piece& piece) {
-        if (scene_.bodies.inverse_mass[piece.row] != 0 || piece.sensor) return;
-        const Frame at = frame_at(state_.x.linear[piece.row], state_.x.angular[piece.row]);
-        const Vec2 corner = at.position + at.turn(piece.outline.corner[0]);
-        const Vec2 x = nearest_image(scene_.walls.periodic, place(i) - corner);
-        const GasWayOut out = way_out(piece, at, x, radius_[i]);
-        if (out.depth <= 1e-12 * (length(x) + piece.outline.width)) return;
-        deepest_ = std::max(deepest_, out.depth);
-        move(i, (out.depth + slack * (radius_[i] + piece.outline.radius)) * out.normal);
+    /// Out of what is solid: its lines alone would have who is beyond one of them inside. On the shortest way that does
+    /// not lead into another solid, as over the seam of two, if there is one.
+    void push_out(std::uint32_t i) {
+        struct Way {
+            Vec2 by{};
+            double depth = HUGE_VAL;
+        } shortest, shortest_free;
+        double deepest = 0;
+        for (const GasSolid& solid : solids_) {
+            const Vec2 seen = solid.seen(scene_.walls.periodic, place(i));
+            const Convex& outline = solid.piece->outline;
+            const double depth = solid.depth(seen, radius_[i]), r = radius_[i] + outline.radius;
+            if (depth <= solid.rounding(place(i))) continue;
+            deepest = std::max(deepest, depth);
+            for (int face = 0; face < outline.count; ++face) {
+                const double out = r - solid.beyond(face, seen), more = slack * (r > 0 ? r : solid.extent);
+                const Way way{(out + more) * solid.turned.turn(outline.normal[face]), out};
+                if (out < shortest.depth) shortest = way;
+                if (out < shortest_free.depth && is_free(place(i) + way.by)) shortest_free = way;
+            }
+        }
+        if (deepest == 0) return;
+        deepest_ = std::max(deepest_, deepest);
+        move(i, shortest_free.depth < HUGE_VAL ? shortest_free.by : shortest.by);
+    }
+    bool is_free(Vec2 place) const {
+        return std::none_of(solids_.begin(), solids_.end(), [&](const GasSolid& solid) {
+            return solid.depth(solid.seen(scene_.walls.periodic, place), 0) > 0;
+        });
     }
     void push_off(std::uint32_t i, const GasObstacle& o) {
         const Vec2 x = nearest_image(scene_.walls.periodic, place(i) - o.a);
@@ -102,6 +122,7 @@ class Relaxation {
     const GasScene& scene_;
     State& state_;
     const std::vector<GasObstacle> obstacles_;
+    const std::vector<GasSolid> solids_;
     const std::vector<Vec2> start_;
     std::vector<std::size_t> rows_;
     std::vector<double> radius_;

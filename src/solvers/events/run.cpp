@@ -122,7 +122,8 @@ void GasRun<Queue>::watch_for_wedge(Slot i, const GasObstacle& o, double flown) 
     constexpr double rounding = 1e-12;
     constexpr int many = 100000;
     const double r = radius(i) > 0 ? radius(i) : gas_.grid.side.x;
-    if (flown * length(discs_.disc[i].v) < rounding * r && ++wedged_ >= many)
+    const double speed = length(discs_.disc[i].v);
+    if (speed > 0 && flown * speed < rounding * r && ++wedged_ >= many)
         end_pressed(o, "it wherever it turns, again and again");
 }
 
