@@ -426,7 +426,7 @@ void note_astray(const SoftScene& scene, const State& state, double h, const Scr
         put_in(c, h, contacts);
         note_corner(c, contacts);
         const bool was_changing = is_looked_at_anew(c), did_strike = may_strike(c);
-        c.fast = (c.fast && is_at_chain(c.candidate(), contacts.pieces)) ||
+        c.fast = (c.fast && is_at_chain(c.candidate(), contacts.pieces)) ||  // he may have been past its neighbours
                  is_fast(state, h, c.a, c.b, c.least_thickness, contacts);
         c.rests = c.rests || rests(scene, state, c, h, contacts.outlook.ahead);
         note_gentle(scene, state, h, c, contacts);

@@ -175,13 +175,12 @@ std::vector<ContactPoint> World::State::contact_points(BodyId of) {
                 act(place++, c.key.b.index);
             }
     };
-    if (at_work.now)
-        soft_contacts.places.forget();  // in a step they change, from one question of a force's to the next
     for (const std::uint32_t k : soft_contacts.places.of(of.index, each_end)) {
         const SoftContact& c = k < all.size() ? all[k] : at_rest[k - all.size()];
         if ((!c.at_wall && c.key.a == of) || c.key.b == of) add_points(c, points);
     }
-    if (at_work.now) soft_contacts.places.forget();
+    if (at_work.now)
+        soft_contacts.places.forget();  // in a step they change, from one question of a force's to the next
     return points;
 }
 

@@ -11,6 +11,7 @@
 #include "solvers/events/fetch.hpp"
 #include "solvers/events/foresee.hpp"
 #include "solvers/events/meet_company.hpp"
+#include "state/row_name.hpp"
 
 namespace carom {
 
@@ -129,12 +130,9 @@ void GasRun<Queue>::watch_for_wedge(Slot i, const GasObstacle& o, double flown) 
 
 template <class Queue>
 void GasRun<Queue>::end_pressed(const GasObstacle& o, const char* how) const {
-    const Bodies& bodies = scene_.bodies;
-    const auto name = bodies.name.find(bodies.id[o.row].index);
-    throw Error(
-        fmt::format("the gas has no room left: body {} presses it, and strikes {}",
-                    name == bodies.name.end() ? fmt::format("number {}", o.row) : "'" + name->second + "'", how),
-        Error::Cause::run);
+    throw Error(fmt::format("the gas has no room left: body {} presses it, and strikes {}",
+                            name_of_row(scene_.bodies, o.row), how),
+                Error::Cause::run);
 }
 
 // ---- Where discs are ------------------------------------------------------------------------------------------------
